@@ -4,8 +4,7 @@
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/bodies.hpp"
-#include "compare/study/verdict.hpp"
-#include "compare/study/write_ranking.hpp"
+#include "compare/study/write_study.hpp"
 #include "compare/table/json.hpp"
 #include "compare/write/write.hpp"
 

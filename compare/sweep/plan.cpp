@@ -3,8 +3,8 @@
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "cases/scene/cut.hpp"
-#include "compare/provenance/print.hpp"
 #include "compare/solve/progress.hpp"
+#include "compare/table/table.hpp"
 #include "msm/design/design.hpp"
 
 #include <algorithm>
@@ -97,29 +97,6 @@ constexpr double again_part = 0.7; ///< part of the first solve's time that a re
 
 double total(const std::vector<double>& seconds) {
   return std::accumulate(seconds.begin(), seconds.end(), 0.);
-}
-
-/// The variants of one method.
-struct Method {
-  std::string name;
-  std::size_t n_variants = 0;
-  Estimate largest; ///< by memory; seconds of all
-};
-
-std::vector<Method> methods_of_plan(const Sweep& sweep) {
-  std::vector<Method> methods;
-  for (const Variant& variant : sweep.plan.variants) {
-    const std::string name = method_name(variant);
-    auto found =
-        std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; });
-    if (found == methods.end()) found = methods.insert(methods.end(), {name, 0, {}});
-    const Estimate estimate = estimate_of(sweep, variant);
-    ++found->n_variants;
-    found->largest.unknowns = std::max(found->largest.unknowns, estimate.unknowns);
-    found->largest.megabytes = std::max(found->largest.megabytes, estimate.megabytes);
-    found->largest.seconds += estimate.seconds;
-  }
-  return methods;
 }
 
 } // namespace
@@ -287,9 +264,29 @@ void check_memory(const Sweep& sweep) {
 void write_plan(std::ostream& out, const Sweep& sweep) {
   print(out, "{}: {} variants, about {} in all (minutes:seconds)\n", sweep.definition.name,
         sweep.plan.variants.size(), clock_text(total(estimated_seconds(sweep))));
-  for (const auto& [name, n_variants, largest] : methods_of_plan(sweep))
-    print(out, "  {:<34} {:>3} variants, up to {:>9.0f} unknowns and {:>6.0f} MB, {:>7}\n", name, n_variants,
-          largest.unknowns, largest.megabytes, clock_text(largest.seconds));
+  struct Method {
+    std::string method;
+    int variants = 0;
+    double unknowns = 0, megabytes = 0, seconds = 0; ///< the largest variant's; seconds of all
+  };
+  std::vector<Method> methods;
+  for (const Variant& variant : sweep.plan.variants) {
+    const std::string name = method_name(variant);
+    const auto found =
+        std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.method == name; });
+    Method& method = found == methods.end() ? methods.emplace_back(Method{name}) : *found;
+    const Estimate estimate = estimate_of(sweep, variant);
+    ++method.variants;
+    method.unknowns = std::max(method.unknowns, estimate.unknowns);
+    method.megabytes = std::max(method.megabytes, estimate.megabytes);
+    method.seconds += estimate.seconds;
+  }
+  write_table(out, columns_of("method variants unknowns~up~to=unknowns{:.0f} MB=megabytes{:.0f} time"),
+              json_list(methods, [](const Method& m) {
+                Json row = SPRINGPROOF_MEMBERS(m, method, variants, unknowns, megabytes);
+                row["time"] = clock_text(m.seconds);
+                return row;
+              }));
   for (const LeftOut& left : sweep.plan.left_out) print(out, "  left out: {}: {}\n", left.what, left.reason);
 }
 

@@ -30,8 +30,7 @@ Texts filled_texts(const Column& column, const Json& rows, bool is_left) {
     texts.push_back(one_line(printed_value(value_at(row, key_of(column)), column.format)));
   std::size_t width = 0;
   for (const std::string& text : texts) width = std::max(width, n_characters(text));
-  for (std::string& text : texts)
-    text.insert(is_left ? text.size() : 0, width - n_characters(text), ' ');
+  for (std::string& text : texts) text.insert(is_left ? text.size() : 0, width - n_characters(text), ' ');
   return texts;
 }
 
@@ -49,8 +48,10 @@ Columns columns_of(const std::string& text) {
   Columns columns;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
-    const std::size_t end = std::min(word.find('='), word.size());
-    columns.push_back({word.substr(0, end), word.substr(std::min(end + 1, word.size()))});
+    std::replace(word.begin(), word.end(), '~', ' ');
+    const std::size_t format = std::min(word.find('{'), word.size()), key = std::min(word.find('='), format);
+    columns.push_back({word.substr(0, key), word.substr(key, format - key), word.substr(format)});
+    columns.back().key.erase(0, 1); // the sign of equality, where there is one
   }
   return columns;
 }

@@ -27,8 +27,8 @@ struct Column {
 };
 using Columns = std::vector<Column>;
 
-/// The columns that a text names, parted by blanks: "case cells_x=cells.0" has the column cells_x of what is
-/// in a row at cells.0.
+/// The columns that a text names, parted by blanks: "case cells_x=cells.0 worst~%=worst{:.2f}" has the columns
+/// "case", "cells_x" of what is in a row at cells.0, and "worst %" with a format. "~" stands for a blank.
 Columns columns_of(const std::string& text);
 
 /// The value at a column's key; null where the row has none.

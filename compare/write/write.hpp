@@ -18,7 +18,7 @@ namespace springproof::compare {
 enum class MeshTable { left_out, printed };
 
 /// Body, loads, both sides, warnings, the peer, measures and expectations, in lines of at most 100 columns.
-/// The verdict comes after it: write_verdict_text() of compare/ranking.
+/// The verdict comes after it: write_verdict_text() of compare/study.
 void write_text(std::ostream& out, const Comparison& comparison, MeshTable meshes = MeshTable::left_out);
 
 /// Whether a measure's error is the norm of a difference, of fields over the body or of courses over time; it
@@ -35,6 +35,9 @@ Json body_to_json(const cases::Scene& scene);
 /// {"force_N", "moment_N_mm", "about_mm" (null where a load follows a history), "areas_mm2": {"load[0]":
 /// ...}}
 Json loads_to_json(const cases::Scene& scene);
+
+/// A cell's stiffnesses: "k_e, k_f, k_d = 31, 47, 33 N/m, k_v = 0.02 MPa", and exponents if there are any.
+std::string stiffness_text(const msm::CellStiffness& k);
 
 /// A design's springs in a few words: "k_e, k_f, k_d = 31, 47, 33 N/m", "12 springs of 50, 6 of 50 N/m in a
 /// cell", "5 tetrahedra in a cell".

@@ -182,10 +182,9 @@ void write_measures_table(std::ostream& out, const Comparison& comparison) {
                 {"fem_error", number(m.fem_error_percent, is_of_difference ? "{:.2f}*" : "{:+.2f}")}});
     return row;
   });
-  Columns columns{{"measure", "name"}, {"unit"}, {"fem", "", "{:.6g}"}, {"springs", "msm", "{:.6g}"}};
-  if (has_limits) columns.push_back({"fem's limit", "limit"});
-  columns.push_back({"error %", "error"});
-  if (has_limits) columns.push_back({"fem's error %", "fem_error"});
+  Columns columns =
+      columns_of(std::string("measure=name unit fem{:.6g} springs=msm{:.6g} ") +
+                 (has_limits ? "fem's~limit=limit error~%=error fem's~error~%=fem_error" : "error~%=error"));
   if (peer) columns.push_back({peer->program, "peer", "{:.6g}"});
   write_table(out, columns, rows);
 }
@@ -228,15 +227,12 @@ void write_measures_text(std::ostream& out, const Comparison& comparison) {
 
 /// The study on its finest meshes.
 Columns study_columns(const MeshStudy& study, std::size_t n_meshes) {
-  Columns columns{{"fem on refined meshes", "name"}};
+  std::string columns = "fem~on~refined~meshes=name";
   for (std::size_t mesh = study.refine.size() - n_meshes; mesh < study.refine.size(); ++mesh)
-    columns.push_back(
-        {fmt::format("refine {}", study.refine[mesh]), fmt::format("values.{}", mesh), "{:.6g}"});
-  columns.insert(columns.end(), {{"order", "observed_order", "{:.2f}"},
-                                 {"limit", "extrapolated", "{:.6g}"},
-                                 {"GCI %", "grid_convergence_index_percent", "{:.2g}"},
-                                 {"fem +- %", "discretisation_error", "{:.2g}"}});
-  return columns;
+    columns += fmt::format(" refine~{}=values.{}{{:.6g}}", study.refine[mesh], mesh);
+  return columns_of(columns + " order=observed_order{:.2f} limit=extrapolated{:.6g} "
+                              "GCI~%=grid_convergence_index_percent{:.2g} "
+                              "fem~+-~%=discretisation_error{:.2g}");
 }
 
 /// Writes the finite elements' values on every mesh, with orders and error bars. In a terminal's width the
@@ -269,15 +265,11 @@ void write_landmarks_text(std::ostream& out, const Comparison& comparison) {
     (row["reason"] == "" || is_to_equilibrium ? rows : missing).push_back(row);
     has_equilibrium = has_equilibrium || is_to_equilibrium;
   }
-  Columns columns{{"landmark, mm", "name"},
-                  {"springs to fem", "mean", "{:.4g}"},
-                  {"deviation", "", "{:.4g}"},
-                  {"rays", "n_rays"},
-                  {"fem moved", "moved", "{:.4g}"}};
+  std::string columns = "landmark,~mm=name springs~to~fem=mean{:.4g} deviation{:.4g} rays=n_rays "
+                        "fem~moved=moved{:.4g}";
   if (has_equilibrium)
-    columns.insert(columns.end(), {{"to their equilibrium", "to_equilibrium.mean", "{:.4g}"},
-                                   {"deviation", "to_equilibrium.deviation", "{:.4g}"}});
-  write_table(out, columns, rows);
+    columns += " to~their~equilibrium=to_equilibrium.mean{:.4g} deviation=to_equilibrium.deviation{:.4g}";
+  write_table(out, columns_of(columns), rows);
   for (const Json& row : missing)
     write_wrapped(
         out, fmt::format("  {}: {}", row["name"].get<std::string>(), row["reason"].get<std::string>()), 4);

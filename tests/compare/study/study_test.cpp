@@ -1,9 +1,8 @@
-#include "compare/study/verdict.hpp"
+#include "compare/study/write_study.hpp"
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/study/write_ranking.hpp"
 #include "compare/table/table.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/unwrapped.hpp"
