@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/modes/vibrations.hpp"
+#include "compare/modes/modes.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 #include <ostream>

@@ -4,7 +4,6 @@
 #include "compare/report/bodies.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/json.hpp"
-#include "compare/thesis/layout.hpp"
 #include "compare/thesis/write.hpp"
 #include "compare/write/write.hpp"
 
@@ -156,7 +155,7 @@ Json report_to_json(const ThesisResults& results, const std::vector<Figure>& fig
                                         {"msm", results.advice[a].msm_seconds}};
   const std::vector<SummaryGroup> groups = summarise(results.entries);
   for (std::size_t g = 0; g < groups.size(); ++g)
-    document["summary"]["groups"][g]["command"] = groups[g].trace.command;
+    document["summary"]["groups"][g]["command"] = groups[g].command;
   for (const char* list : {"sheets", "figures", "times"}) document[list] = Json::array();
   for (const Sheet& sheet : sheets_of(results.entries))
     document["sheets"].push_back(

@@ -1,7 +1,7 @@
 #include "compare/sweep/analysis.hpp"
 
 #include "compare/measure/box_plot.hpp"
-#include "compare/study/worst_error.hpp"
+#include "compare/study/study.hpp"
 
 #include <algorithm>
 #include <cmath>

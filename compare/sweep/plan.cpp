@@ -101,8 +101,12 @@ double total(const std::vector<double>& seconds) {
 
 } // namespace
 
-std::vector<std::array<int, 3>> levels_of(const cases::Box& box, Extent extent) {
-  std::array<int, 3> cells = box.cells;
+std::vector<std::array<int, 3>> levels_of(const cases::Case& definition, Extent extent) {
+  const auto* box = std::get_if<cases::Box>(&definition.body);
+  if (!box)
+    throw cases::InputError(definition.file +
+                            ": body.shape: a sweep refines the body, which must be \"box\"");
+  std::array<int, 3> cells = box->cells;
   if (std::all_of(cells.begin(), cells.end(), [](int n) { return n % 2 == 0; }))
     for (int& n : cells) n /= 2;
   std::vector<std::array<int, 3>> levels;
@@ -179,15 +183,16 @@ cases::Case with_variant(const cases::Case& definition, const Variant& variant) 
 }
 
 Plan plan_sweep(const cases::Case& definition, Extent extent) {
-  const auto* box = std::get_if<cases::Box>(&definition.body);
-  if (!box)
-    throw cases::InputError(definition.file +
-                            ": body.shape: a sweep refines the body, which must be \"box\"");
-  if (!std::holds_alternative<cases::LinearElastic>(definition.material))
-    throw cases::InputError(
-        definition.file + ": material.model: a sweep has small strain too, so it must be \"linear_elastic\"");
-  if (definition.dynamics)
-    throw cases::InputError(definition.file + ": dynamics: a sweep is of equilibria, so it must be left out");
+  Plan plan;
+  plan.levels = levels_of(definition, extent);
+  const auto refuse_if = [&](bool is_there, const std::string& why) {
+    if (is_there) throw cases::InputError(definition.file + ": " + why);
+  };
+  refuse_if(!std::holds_alternative<cases::LinearElastic>(definition.material),
+            "material.model: a sweep has small strain too, so it must be \"linear_elastic\"");
+  refuse_if(definition.dynamics.has_value(), "dynamics: a sweep is of equilibria, so it must be left out");
+  refuse_if(definition.msm.exponent.has_value(),
+            "msm.law: a sweep solves every design with the springs that are its own, so it must be left out");
   if (const auto joined = cases::first_joined(definition))
     throw cases::InputError(
         joined->where, "is joined, must be left out of a sweep: its sides end elsewhere on other meshes");
@@ -195,18 +200,12 @@ Plan plan_sweep(const cases::Case& definition, Extent extent) {
     throw cases::InputError(definition.msm.where,
                             "relaxation_steps, relaxation_iterations and further_iterations must "
                             "be left out of a sweep, which is of equilibria");
-  if (definition.msm.exponent)
-    throw cases::InputError(definition.file +
-                            ": msm.law: a sweep solves every design with the springs that are its own, so it "
-                            "must be left out");
   for (const cases::Measure& measure : definition.measures)
     if (cases::is_of_fields(measure.kind))
       throw cases::InputError(measure.where,
                               fmt::format("kind is \"{}\", must be one of the displacement: a sweep "
                                           "compares displacements interpolated between grids",
                                           cases::name_of(measure.kind)));
-  Plan plan;
-  plan.levels = levels_of(*box, extent);
   for (std::size_t level = plan.levels.size() - 3; level < plan.levels.size(); ++level)
     plan.reference.push_back(
         {Program::finite_elements, {}, Formulation::log_strain, Element::q2, plan.levels[level], tight});

@@ -154,19 +154,6 @@ std::vector<Series> series_of(const Sweep& sweep, std::optional<Error> floor_of,
   return all;
 }
 
-struct Picture {
-  Error error;
-  Clock clock;
-  const char *name, *title;
-};
-constexpr Picture pictures[] = {
-    {Error::field, Clock::first_answer, "field_first", "displacement field, first answer (setup and solve)"},
-    {Error::field, Clock::re_solve, "field_again", "displacement field, re-solve after a load change of 5 %"},
-    {Error::worst_measure, Clock::first_answer, "measures_first",
-     "worst measure, first answer (setup and solve)"},
-    {Error::worst_measure, Clock::re_solve, "measures_again",
-     "worst measure, re-solve after a load change of 5 %"}};
-
 void plot_motions(const std::string& folder, const Sweep& sweep) {
   const double ms = 1e3 * sweep.definition.dynamics->step;
   ErrorPlot plot{
@@ -186,19 +173,18 @@ void plot_motions(const std::string& folder, const Sweep& sweep) {
 void plot_sweep(const std::string& folder, const Sweep& sweep) {
   if (!sweep.reference) return;
   if (sweep.definition.dynamics) return plot_motions(folder, sweep);
-  for (const Picture& picture : pictures) {
-    ErrorPlot plot{picture.name,
-                   picture.name + std::string(".csv"),
-                   sweep.definition.name + ": " + picture.title,
-                   "time",
-                   "ms",
-                   1e-3};
-    plot.uncertainty = uncertainty_percent(*sweep.reference, picture.error);
-    plot.series = series_of(sweep, picture.error,
-                            [&](const SweepRow& row) { return point_of(row, picture.error, picture.clock); });
-    plot.points = points_of(sweep, picture.error, picture.clock);
-    plot_errors(folder, plot); // which has no points of a case without measures, for one
-  }
+  for (const Error error : {Error::field, Error::worst_measure})
+    for (const Clock clock : {Clock::first_answer, Clock::re_solve}) {
+      const std::string name = fmt::format("{}_{}", error == Error::field ? "field" : "measures",
+                                           clock == Clock::first_answer ? "first" : "again");
+      ErrorPlot plot{
+          name,   name + ".csv", fmt::format("{}: {}, {}", sweep.definition.name, what(error), what(clock)),
+          "time", "ms",          1e-3};
+      plot.uncertainty = uncertainty_percent(*sweep.reference, error);
+      plot.series = series_of(sweep, error, [&](const SweepRow& row) { return point_of(row, error, clock); });
+      plot.points = points_of(sweep, error, clock);
+      plot_errors(folder, plot); // which has no points of a case without measures, for one
+    }
 }
 
 } // namespace springproof::compare

@@ -1,6 +1,9 @@
 #include "compare/table/table.hpp"
 
+#include "cases/case/rows.hpp"
+
 #include <algorithm>
+#include <fmt/ostream.h>
 #include <sstream>
 
 namespace springproof::compare {
@@ -19,6 +22,30 @@ std::string printed_value(const Json& value, const std::string& format) {
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (!value.is_number_float()) return value.dump();
   return fmt::format(fmt::runtime(format.empty() ? "{}" : format), value.get<double>());
+}
+
+/// Follows RFC 4180: a text with a comma or a quote stands in quotes, and its quotes are doubled. An
+/// apostrophe goes before what begins as a formula does.
+std::string text_field(const std::string& any_text) {
+  std::string text = one_line(any_text);
+  // A spreadsheet would take it for a formula, which can start programs.
+  if (text.find_first_of("=+-@\t") == 0 && !cases::number_in<double>(text)) text.insert(0, 1, '\'');
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string field(const Json& value, int digits) {
+  if (value.is_null()) return "";
+  if (value.is_string()) return text_field(value.get_ref<const std::string&>());
+  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
+  if (value.is_number_float()) return fmt::format("{:.{}g}", value.get<double>(), digits);
+  if (!value.is_array()) return value.dump();
+  std::vector<std::string> entries;
+  for (const Json& entry : value)
+    entries.push_back(entry.is_string() ? entry.get<std::string>() : field(entry, digits));
+  return text_field(fmt::format("{}", fmt::join(entries, " ")));
 }
 
 using Texts = std::vector<std::string>;
@@ -66,6 +93,14 @@ Json value_at(const Json& row, const std::string& key) {
   const auto entry = cases::number_in<std::size_t>(first);
   if (!row.is_array() || !entry || *entry >= row.size()) return nullptr;
   return rest.empty() ? row.at(*entry) : value_at(row.at(*entry), rest);
+}
+
+void CsvWriter::write(const Json& fields) {
+  std::vector<std::string> texts;
+  for (const Json& value : fields)
+    for (const Json& part : value.is_array() ? value : Json::array({value}))
+      texts.push_back(field(part, digits_));
+  fmt::print(out_, "{}\n", fmt::join(texts, ","));
 }
 
 void write_csv(std::ostream& out, const Columns& columns, const Json& rows, int digits) {

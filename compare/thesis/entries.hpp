@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/modes/eigenspaces.hpp"
+#include "compare/modes/modes.hpp"
 #include "compare/thesis/published.hpp"
 
 /// The published figures beside the computed ones, what is known of those that are not met, and how many are.
@@ -61,10 +61,10 @@ struct SummaryGroup {
   std::string unit; ///< "points" or "mm3" ...
   int n_entries;
   std::vector<Within> within;
-  double listing_bound; ///< entries beyond it are listed
-  Trace trace;          ///< counts again
+  double listing_bound;  ///< entries beyond it are listed
+  std::string command{}; ///< counts again
   /// Entries that no reference meets; the entry's finding explains it, or nothing does.
-  std::vector<const TableEntry*> beyond;
+  std::vector<const TableEntry*> beyond{};
   int n_failed = 0;     ///< without a value against some reference, whatever the others give
   int n_reproduced = 0; ///< entries without a failure within the listing bound
 };

@@ -1,4 +1,4 @@
-#include "compare/thesis/layout.hpp"
+#include "compare/thesis/write.hpp"
 
 #include "compare/provenance/print.hpp"
 #include "compare/table/table.hpp"

@@ -30,7 +30,7 @@ struct PublishedFigure {
   double value;
 };
 
-/// All figures of cases/published, table by table as numbered (5.12 after 5.4).
+/// All figures of cases/published/figures.csv, table by table as numbered (5.12 after 5.4).
 /// @throws InputError naming the file when a row is broken
 const std::vector<PublishedFigure>& published_figures();
 

@@ -3,7 +3,6 @@
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/table/table.hpp"
-#include "compare/thesis/layout.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #include "cases/case/names.hpp"
 #include "cases/case/readers.hpp"
 #include "compare/table/table.hpp"
-#include "compare/thesis/layout.hpp"
 
 #include <algorithm>
 #include <set>
@@ -61,13 +60,17 @@ std::string bound_text(const SummaryGroup& group) {
 }
 
 void write_counts(std::ostream& out, const std::vector<TableEntry>& entries) {
-  const EntryCounts counts = count_entries(entries);
-  print(out, "{} published values: {} reproduced, {} not, {} failed\n", counts.n, counts.n_reproduced,
-        counts.n_not_reproduced(), counts.n_failed);
+  int n_reproduced = 0, n_failed = 0;
   std::vector<std::string> parts;
-  for (const SummaryGroup& group : summarise(entries))
+  for (const SummaryGroup& group : summarise(entries)) {
+    n_reproduced += group.n_reproduced;
+    n_failed += group.n_failed;
     parts.push_back(fmt::format("{}: {} of {} within {}", group.name, group.n_reproduced, group.n_entries,
                                 bound_text(group)));
+  }
+  const int n = static_cast<int>(entries.size());
+  print(out, "{} published values: {} reproduced, {} not, {} failed\n", n, n_reproduced,
+        n - n_reproduced - n_failed, n_failed);
   write_paragraph(out, fmt::format("{}", fmt::join(parts, "; ")), "  ", "  ");
   write_failures(out, entries);
 }
@@ -120,15 +123,6 @@ void write_advice_table(std::ostream& out, const std::vector<Advice>& advice) {
 }
 
 } // namespace
-
-EntryCounts count_entries(const std::vector<TableEntry>& entries) {
-  EntryCounts counts{static_cast<int>(entries.size())};
-  for (const SummaryGroup& group : summarise(entries)) {
-    counts.n_failed += group.n_failed;
-    counts.n_reproduced += group.n_reproduced;
-  }
-  return counts;
-}
 
 void write_tables_text(std::ostream& out, const ThesisResults& results) {
   print(out, "Each figure: ours, then its difference from the printed one. r = (MSM - FEM)/FEM x 100 %.\n\n");
