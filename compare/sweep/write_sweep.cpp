@@ -4,7 +4,6 @@
 #include "compare/measure/box_plot.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
-#include "compare/sweep/analysis.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/write.hpp"
 

@@ -36,7 +36,7 @@ std::string text_field(const std::string& any_text) {
   return quoted + "\"";
 }
 
-std::string field(const Json& value, int digits) {
+std::string csv_field(const Json& value, int digits) {
   if (value.is_null()) return "";
   if (value.is_string()) return text_field(value.get_ref<const std::string&>());
   if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
@@ -44,7 +44,7 @@ std::string field(const Json& value, int digits) {
   if (!value.is_array()) return value.dump();
   std::vector<std::string> entries;
   for (const Json& entry : value)
-    entries.push_back(entry.is_string() ? entry.get<std::string>() : field(entry, digits));
+    entries.push_back(entry.is_string() ? entry.get<std::string>() : csv_field(entry, digits));
   return text_field(fmt::format("{}", fmt::join(entries, " ")));
 }
 
@@ -99,7 +99,7 @@ void CsvWriter::write(const Json& fields) {
   std::vector<std::string> texts;
   for (const Json& value : fields)
     for (const Json& part : value.is_array() ? value : Json::array({value}))
-      texts.push_back(field(part, digits_));
+      texts.push_back(csv_field(part, digits_));
   fmt::print(out_, "{}\n", fmt::join(texts, ","));
 }
 

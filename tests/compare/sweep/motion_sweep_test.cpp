@@ -3,7 +3,6 @@
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "compare/sweep/analysis.hpp"
 #include "msm/design/design.hpp"
 #include "tests/support/temporary_folder.hpp"
 
