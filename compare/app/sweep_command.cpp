@@ -5,7 +5,6 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/ranks.hpp"
-#include "compare/sweep/instructions.hpp"
 #include "compare/sweep/sweep.hpp"
 #include "compare/sweep/write_sweep.hpp"
 #include "compare/table/table.hpp"

@@ -8,6 +8,7 @@
 #include "compare/table/json.hpp"
 #include "compare/thesis/write.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <iostream>
 
@@ -64,7 +65,9 @@ int tables(const TablesOptions& options) {
   }
   for (const auto& [phase, seconds] : results.times)
     std::cerr << fmt::format("{:<44} {:>8.2f} s\n", phase, seconds);
-  return count_entries(results.entries).n_failed > 0 ? 1 : 0;
+  const bool has_failed = std::any_of(results.entries.begin(), results.entries.end(),
+                                      [](const TableEntry& entry) { return entry.has_failed(); });
+  return has_failed ? 1 : 0;
 }
 
 } // namespace

@@ -4,7 +4,7 @@
 #include "cases/scene/loads.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/table.hpp"
-#include "compare/write/write_fields.hpp"
+#include "compare/write/write.hpp"
 
 #include <fmt/ostream.h>
 

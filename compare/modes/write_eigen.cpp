@@ -59,8 +59,8 @@ Json mode_to_json(const MatchedModes& mode) {
           {"error_percent", mode.error_percent}};
 }
 
-void write_rows(const std::string& path, const Columns& columns, const Json& rows) {
-  write_file(path, [&](std::ostream& out) { write_csv(out, columns, rows, 8); });
+void write_rows(const std::string& path, const std::string& columns, const Json& rows) {
+  write_file(path, [&](std::ostream& out) { write_csv(out, columns_of(columns), rows, 8); });
 }
 
 /// Writes shapes of modes on a mesh as arrows.
@@ -166,11 +166,11 @@ void write_eigenspaces_text(std::ostream& out, const EigenspaceAnalysis& analysi
 }
 
 void write_free_modes_text(std::ostream& out, const FreeBodyModes& modes) {
-  fmt::print(out, "free body, lowest deforming modes\n{:>14}{:>6}{:>14}{:>6}{:>10}{:>10}\n", "fem N/mm",
-             "dim", "msm N/mm", "dim", "msm/fem", "angle °");
-  for (const ModePair& pair : modes.pairs)
-    fmt::print(out, "{:>14.6g}{:>6}{:>14.6g}{:>6}{:>10.4f}{:>9.2f}\n", pair.fem.eigenvalue,
-               pair.fem.dimension, pair.msm.eigenvalue, pair.msm.dimension, pair.ratio, pair.angle_degrees);
+  fmt::print(out, "free body, lowest deforming modes\n");
+  write_table(out,
+              columns_of("fem~N/mm=fem_eigenvalue{:.6g} dim=fem_multiplicity msm~N/mm=msm_eigenvalue{:.6g} "
+                         "dim=msm_multiplicity msm/fem=ratio{:.4f} angle~°=angle_degrees{:.2f}"),
+              free_modes_to_json(modes));
 }
 
 Json eigenspaces_to_json(const EigenspaceAnalysis& analysis) {
@@ -225,8 +225,7 @@ void write_free_modes_files(const std::string& folder, const FreeBodyModes& mode
       fields.push_back({fmt::format("{}_mode_{}", model, m + 1),
                         as_points(canonical_basis(basis(*spectrum, *space)).col(0))});
   }
-  write_rows(folder + "/body_modes.csv",
-             {{"# mode"}, {"fem_eigenvalue"}, {"msm_eigenvalue"}, {"ratio"}, {"angle_degrees"}}, rows);
+  write_rows(folder + "/body_modes.csv", "#~mode fem_eigenvalue msm_eigenvalue ratio angle_degrees", rows);
   write_shapes(folder + "/body_modes.vtu", mesh, fields);
   draw(folder, "body_modes", "body_modes");
 }
@@ -240,12 +239,11 @@ void write_vibrations_text(std::ostream& out, const VibrationStudy& study) {
       write_paragraph(out, design.design + ": " + design.refusal, "  ", "    ");
       continue;
     }
-    print(out, "  {}\n  {:>12}{:>6}{:>12}{:>10}{:>10}\n", design.design, "fem Hz", "dim", "msm Hz", "error %",
-          "overlap");
-    for (const MatchedModes& mode : design.modes)
-      print(out, "  {:>12.6g}{:>6}{:>12}{:>10}{:>10.4f}\n", mode.fem_hz, mode.dimension,
-            mode.msm_hz ? fmt::format("{:.6g}", *mode.msm_hz) : "none",
-            mode.error_percent ? fmt::format("{:+.2f}", *mode.error_percent) : "", mode.overlap);
+    print(out, "  {}\n", design.design);
+    write_table(out,
+                columns_of("fem~Hz=fem_hz{:.6g} dim=multiplicity msm~Hz=msm_hz{:.6g} "
+                           "error~%=error_percent{:+.2f} overlap{:.4f}"),
+                json_list(design.modes, mode_to_json));
   }
 }
 
@@ -279,7 +277,7 @@ void write_vibrations_files(const std::string& folder, const VibrationStudy& stu
       if (mode.msm_hz) add(design.design, mode, design.msm.shapes.col(mode.msm_mode));
     }
   const std::string path = folder + "/" + study.name + "_modes";
-  write_rows(path + ".csv", columns_of("design mode fem_hz multiplicity msm_hz overlap error_percent"), rows);
+  write_rows(path + ".csv", "design mode fem_hz multiplicity msm_hz overlap error_percent", rows);
   write_shapes(path + ".vtu", mesh, fields);
 }
 

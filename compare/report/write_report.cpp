@@ -3,7 +3,6 @@
 #include "cases/case/names.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/json.hpp"
-#include "compare/thesis/layout.hpp"
 #include "compare/thesis/write.hpp"
 #include "compare/write/write.hpp"
 
@@ -142,7 +141,7 @@ Json report_to_json(const ThesisResults& results, const std::vector<Figure>& fig
                                         {"msm", results.advice[a].msm_seconds}};
   const std::vector<SummaryGroup> groups = summarise(results.entries);
   for (std::size_t g = 0; g < groups.size(); ++g)
-    document["summary"]["groups"][g]["command"] = groups[g].trace.command;
+    document["summary"]["groups"][g]["command"] = groups[g].command;
   document["sheets"] = json_list(sheets_of(results.entries), [](const Sheet& sheet) -> Json {
     return {{"table", sheet.table}, {"name", name_of(sheet)}, {"subject", subject_of(sheet)}};
   });

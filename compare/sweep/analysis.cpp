@@ -1,13 +1,11 @@
-#include "compare/sweep/analysis.hpp"
+#include "compare/sweep/write_sweep.hpp"
 
 #include "compare/measure/box_plot.hpp"
-#include "compare/study/worst_error.hpp"
+#include "compare/study/study.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
-#include <numeric>
 #include <tuple>
 
 namespace springproof::compare {
@@ -99,28 +97,25 @@ std::string describe(const Point& point, double uncertainty_percent) {
 
 } // namespace
 
-std::vector<std::size_t> pareto_front(const std::vector<Point>& points) {
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return speed_first(points[a]) < speed_first(points[b]);
-  });
-  std::vector<std::size_t> front;
-  double least_error = std::numeric_limits<double>::infinity();
-  for (const std::size_t i : order) {
-    if (!(points[i].error_percent < least_error)) continue;
-    least_error = points[i].error_percent;
-    front.push_back(i);
-  }
+Family other(Family family) {
+  return family == Family::springs ? Family::finite_elements : Family::springs;
+}
+
+std::vector<Point> pareto_front(const std::vector<Point>& points) {
+  std::vector<Point> order = points, front;
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Point& a, const Point& b) { return speed_first(a) < speed_first(b); });
+  for (const Point& point : order)
+    if (front.empty() || point.error_percent < front.back().error_percent) front.push_back(point);
   return front;
 }
 
 std::vector<Point> thinned_front(const std::vector<Point>& points, std::size_t n) {
-  const std::vector<std::size_t> front = pareto_front(points);
+  const std::vector<Point> front = pareto_front(points);
   std::vector<Point> thinned;
   const std::size_t n_kept = std::min(n, front.size());
   for (std::size_t i = 0; i < n_kept; ++i)
-    thinned.push_back(points[front[n_kept == 1 ? 0 : i * (front.size() - 1) / (n_kept - 1)]]);
+    thinned.push_back(front[n_kept == 1 ? 0 : i * (front.size() - 1) / (n_kept - 1)]);
   return thinned;
 }
 
@@ -159,21 +154,24 @@ std::optional<double> worst_measure_error(const SweepRow& row) {
   return errors.worst;
 }
 
-std::optional<Point> point_of(const SweepRow& row, Error error, Clock clock) {
+std::optional<Point> point_of(const Sweep& sweep, const SweepRow& row, Error error, Clock clock) {
   const auto seconds = median_seconds(row, clock), percent = error_of(row, error);
-  if (!seconds || !percent) return std::nullopt;
-  return Point{full_name(row.variant), family_of(row.variant), *seconds, *percent};
+  if (!seconds || !percent || !(*percent >= 0)) return std::nullopt;
+  Point point{full_name(row.variant), family_of(row.variant), *seconds, *percent, {}, row.variant.step};
+  const std::string method = method_name(row.variant);
+  const bool moves = sweep.definition.dynamics.has_value();
+  const auto in_the_end =
+      moves ? error_in_the_end(sweep, method) : errors_by_level(sweep, method, error).back();
+  const double told = moves ? uncertainty_percent(*sweep.reference, error) : 0; // of the difference
+  if (in_the_end && is_accidental(*percent, *in_the_end) && *in_the_end - *percent > told)
+    point.more_cells_percent = in_the_end;
+  return point;
 }
 
 std::vector<Point> points_of(const Sweep& sweep, Error error, Clock clock) {
   std::vector<Point> points;
   for (const SweepRow& row : sweep.rows)
-    if (auto point = point_of(row, error, clock)) {
-      const auto with_most_cells = errors_by_level(sweep, method_name(row.variant), error).back();
-      if (with_most_cells && is_accidental(point->error_percent, *with_most_cells))
-        point->more_cells_percent = with_most_cells;
-      points.push_back(std::move(*point));
-    }
+    if (auto point = point_of(sweep, row, error, clock)) points.push_back(std::move(*point));
   return points;
 }
 
@@ -241,12 +239,12 @@ std::string fastest_sentence(const std::vector<Point>& points, double error_perc
     return start + "no model gets there; nearest comes " +
            describe(points[*best(points, any_point, [](const Point& p) { return p.error_percent; })]) + ".";
   const Point& winner = points[*fastest];
-  const Family other = winner.family == Family::springs ? Family::finite_elements : Family::springs;
-  const auto rival = fastest_within(points, error_percent, other);
+  const Family others = other(winner.family);
+  const auto rival = fastest_within(points, error_percent, others);
   const std::string sentence = start + describe(winner) + " is the fastest";
-  if (!rival) return sentence + fmt::format("; no {} get there.", family_name(other));
+  if (!rival) return sentence + fmt::format("; no {} get there.", family_name(others));
   return sentence + fmt::format(", {} times as fast as the fastest {}, {}.",
-                                short_number(points[*rival].seconds / winner.seconds), family_name(other),
+                                short_number(points[*rival].seconds / winner.seconds), family_name(others),
                                 describe(points[*rival]));
 }
 
@@ -301,30 +299,12 @@ std::vector<Conclusions> conclusions(const Sweep& sweep) {
   return all;
 }
 
-std::optional<Point> motion_point(const Sweep& sweep, const SweepRow& row) {
-  auto point = point_of(row, Error::field, Clock::first_answer);
-  if (!point || !(point->error_percent >= 0.)) return std::nullopt;
-  const auto in_the_end = error_in_the_end(sweep, method_name(row.variant));
-  if (in_the_end && is_accidental(point->error_percent, *in_the_end) &&
-      *in_the_end - point->error_percent > uncertainty_percent(*sweep.reference, Error::field))
-    point->more_cells_percent = in_the_end;
-  return point;
-}
-
-std::vector<Point> motion_points(const Sweep& sweep) {
-  std::vector<Point> points;
-  for (const SweepRow& row : sweep.rows)
-    if (const auto point = motion_point(sweep, row)) points.push_back(*point);
-  return points;
-}
-
 std::string interactive_sentence(const Sweep& sweep, double hertz) {
   std::vector<Point> points, converging; // those that keep up, and of them those without an accident
-  for (const SweepRow& row : sweep.rows) {
-    const auto point = motion_point(sweep, row);
-    if (!point || !(row.variant.step <= (1 + 1e-9) / hertz) || !(point->seconds <= 1)) continue;
-    points.push_back(*point);
-    if (!point->more_cells_percent) converging.push_back(*point);
+  for (const Point& point : points_of(sweep, Error::field, Clock::first_answer)) {
+    if (!(point.step <= (1 + 1e-9) / hertz) || !(point.seconds <= 1)) continue;
+    points.push_back(point);
+    if (!point.more_cells_percent) converging.push_back(point);
   }
   const auto found = most_accurate_within(points, 1);
   if (!found) return fmt::format("at {:g} Hz: none of these motions keeps up", hertz);
@@ -337,11 +317,11 @@ std::string interactive_sentence(const Sweep& sweep, double hertz) {
   };
   if (const auto without = most_accurate_within(converging, 1); best.more_cells_percent && without)
     add("the most accurate not by accident", converging[*without]);
-  const Family other = best.family == Family::springs ? Family::finite_elements : Family::springs;
-  const auto found_other = most_accurate_within(points, 1, other);
-  if (!found_other) return sentence + fmt::format("; no {} keep up", family_name(other));
+  const Family others = other(best.family);
+  const auto found_other = most_accurate_within(points, 1, others);
+  if (!found_other) return sentence + fmt::format("; no {} keep up", family_name(others));
   const Point& rival = points[*found_other];
-  add(fmt::format("the most accurate {}", family_name(other)), rival);
+  add(fmt::format("the most accurate {}", family_name(others)), rival);
   if (rival.error_percent > uncertainty && rival.error_percent - best.error_percent <= uncertainty)
     sentence += fmt::format(", which the reference's uncertainty of {:.2g} % does not tell from the best",
                             uncertainty);

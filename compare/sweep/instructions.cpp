@@ -1,4 +1,4 @@
-#include "compare/sweep/instructions.hpp"
+#include "compare/sweep/write_sweep.hpp"
 
 #include "cases/case/installation.hpp"
 #include "compare/provenance/call_program.hpp"

@@ -35,7 +35,7 @@ cases::Case with_steps(const cases::Case& definition, const Cells& cells, double
 std::vector<Cells> levels_in_time(const cases::Case& definition, Extent extent,
                                   std::vector<LeftOut>& left_out) {
   std::vector<Cells> levels;
-  for (const Cells& cells : levels_of(std::get<cases::Box>(definition.body), extent)) {
+  for (const Cells& cells : levels_of(definition, extent)) {
     long n_nodes = 1;
     for (const int n : cells) n_nodes *= n + 1;
     if (n_nodes <= most_nodes)
@@ -137,9 +137,6 @@ cases::Trajectory reference_motion(const cases::Case& definition, const Cells& c
 /// @throws InputError
 std::vector<Cells> checked_levels(const cases::Case& definition, Extent extent,
                                   std::vector<LeftOut>& left_out) {
-  if (!std::holds_alternative<cases::Box>(definition.body))
-    throw cases::InputError(definition.file +
-                            ": body.shape: a sweep refines the body, which must be \"box\"");
   const std::vector<Cells> levels = levels_in_time(definition, extent, left_out);
   if (levels.size() < 2)
     throw cases::InputError(

@@ -5,6 +5,7 @@
 #include "cases/scene/scene.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/solve/progress.hpp"
+#include "compare/table/table.hpp"
 #include "msm/design/design.hpp"
 
 #include <algorithm>
@@ -99,33 +100,14 @@ double total(const std::vector<double>& seconds) {
   return std::accumulate(seconds.begin(), seconds.end(), 0.);
 }
 
-/// The variants of one method.
-struct Method {
-  std::string name;
-  std::size_t n_variants = 0;
-  Estimate largest; ///< by memory; seconds of all
-};
-
-std::vector<Method> methods_of_plan(const Sweep& sweep) {
-  std::vector<Method> methods;
-  for (const Variant& variant : sweep.plan.variants) {
-    const std::string name = method_name(variant);
-    auto found =
-        std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; });
-    if (found == methods.end()) found = methods.insert(methods.end(), {name, 0, {}});
-    const Estimate estimate = estimate_of(sweep, variant);
-    ++found->n_variants;
-    found->largest.unknowns = std::max(found->largest.unknowns, estimate.unknowns);
-    found->largest.megabytes = std::max(found->largest.megabytes, estimate.megabytes);
-    found->largest.seconds += estimate.seconds;
-  }
-  return methods;
-}
-
 } // namespace
 
-std::vector<std::array<int, 3>> levels_of(const cases::Box& box, Extent extent) {
-  std::array<int, 3> cells = box.cells;
+std::vector<std::array<int, 3>> levels_of(const cases::Case& definition, Extent extent) {
+  const auto* box = std::get_if<cases::Box>(&definition.body);
+  if (!box)
+    throw cases::InputError(definition.file +
+                            ": body.shape: a sweep refines the body, which must be \"box\"");
+  std::array<int, 3> cells = box->cells;
   if (std::all_of(cells.begin(), cells.end(), [](int n) { return n % 2 == 0; }))
     for (int& n : cells) n /= 2;
   std::vector<std::array<int, 3>> levels;
@@ -202,15 +184,16 @@ cases::Case with_variant(const cases::Case& definition, const Variant& variant) 
 }
 
 Plan plan_sweep(const cases::Case& definition, Extent extent) {
-  const auto* box = std::get_if<cases::Box>(&definition.body);
-  if (!box)
-    throw cases::InputError(definition.file +
-                            ": body.shape: a sweep refines the body, which must be \"box\"");
-  if (!std::holds_alternative<cases::LinearElastic>(definition.material))
-    throw cases::InputError(
-        definition.file + ": material.model: a sweep has small strain too, so it must be \"linear_elastic\"");
-  if (definition.dynamics)
-    throw cases::InputError(definition.file + ": dynamics: a sweep is of equilibria, so it must be left out");
+  Plan plan;
+  plan.levels = levels_of(definition, extent);
+  const auto refuse_if = [&](bool is_there, const std::string& why) {
+    if (is_there) throw cases::InputError(definition.file + ": " + why);
+  };
+  refuse_if(!std::holds_alternative<cases::LinearElastic>(definition.material),
+            "material.model: a sweep has small strain too, so it must be \"linear_elastic\"");
+  refuse_if(definition.dynamics.has_value(), "dynamics: a sweep is of equilibria, so it must be left out");
+  refuse_if(definition.msm.exponent.has_value(),
+            "msm.law: a sweep solves every design with the springs that are its own, so it must be left out");
   if (const auto joined = cases::first_joined(definition))
     throw cases::InputError(
         joined->where, "is joined, must be left out of a sweep: its sides end elsewhere on other meshes");
@@ -218,18 +201,12 @@ Plan plan_sweep(const cases::Case& definition, Extent extent) {
     throw cases::InputError(definition.msm.where,
                             "relaxation_steps, relaxation_iterations and further_iterations must "
                             "be left out of a sweep, which is of equilibria");
-  if (definition.msm.exponent)
-    throw cases::InputError(definition.file +
-                            ": msm.law: a sweep solves every design with the springs that are its own, so it "
-                            "must be left out");
   for (const cases::Measure& measure : definition.measures)
     if (cases::is_of_fields(measure.kind))
       throw cases::InputError(measure.where,
                               fmt::format("kind is \"{}\", must be one of the displacement: a sweep "
                                           "compares displacements interpolated between grids",
                                           cases::name_of(measure.kind)));
-  Plan plan;
-  plan.levels = levels_of(*box, extent);
   for (std::size_t level = plan.levels.size() - 3; level < plan.levels.size(); ++level)
     plan.reference.push_back(
         {Program::finite_elements, {}, Formulation::log_strain, Element::q2, plan.levels[level], tight});
@@ -287,9 +264,29 @@ void check_memory(const Sweep& sweep) {
 void write_plan(std::ostream& out, const Sweep& sweep) {
   print(out, "{}: {} variants, about {} in all (minutes:seconds)\n", sweep.definition.name,
         sweep.plan.variants.size(), clock_text(total(estimated_seconds(sweep))));
-  for (const auto& [name, n_variants, largest] : methods_of_plan(sweep))
-    print(out, "  {:<34} {:>3} variants, up to {:>9.0f} unknowns and {:>6.0f} MB, {:>7}\n", name, n_variants,
-          largest.unknowns, largest.megabytes, clock_text(largest.seconds));
+  struct Method {
+    std::string method;
+    int variants = 0;
+    double unknowns = 0, megabytes = 0, seconds = 0; ///< the largest variant's; seconds of all
+  };
+  std::vector<Method> methods;
+  for (const Variant& variant : sweep.plan.variants) {
+    const std::string name = method_name(variant);
+    const auto found =
+        std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.method == name; });
+    Method& method = found == methods.end() ? methods.emplace_back(Method{name}) : *found;
+    const Estimate estimate = estimate_of(sweep, variant);
+    ++method.variants;
+    method.unknowns = std::max(method.unknowns, estimate.unknowns);
+    method.megabytes = std::max(method.megabytes, estimate.megabytes);
+    method.seconds += estimate.seconds;
+  }
+  write_table(out, columns_of("method variants unknowns~up~to=unknowns{:.0f} MB=megabytes{:.0f} time"),
+              json_list(methods, [](const Method& m) {
+                Json row = SPRINGPROOF_MEMBERS(m, method, variants, unknowns, megabytes);
+                row["time"] = clock_text(m.seconds);
+                return row;
+              }));
   for (const LeftOut& left : sweep.plan.left_out) print(out, "  left out: {}: {}\n", left.what, left.reason);
 }
 

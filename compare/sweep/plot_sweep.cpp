@@ -1,7 +1,6 @@
 #include "compare/sweep/write_sweep.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/sweep/analysis.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/gnuplot.hpp"
 
@@ -32,14 +31,14 @@ struct Series {
 };
 
 struct ErrorPlot {
-  std::string name;     ///< that of the pictures and their script
-  std::string data;     ///< name of the data file
-  std::string headline; ///< above the picture
-  std::string time;     ///< what the times are
-  std::string unit;     ///< in which they are drawn
-  double unit_seconds = 1;
-  /// Time in the unit, where a line is drawn: models left of it are as fast as what they follow.
-  std::optional<double> real_time{};
+  std::string name;          ///< that of the pictures and their script
+  std::string data;          ///< name of the data file
+  std::string headline;      ///< above the picture
+  std::string time = "time"; ///< what the times are
+  std::string unit = "ms";   ///< in which they are drawn
+  double unit_seconds = 1e-3;
+  /// Time in the unit, where a line is drawn: models left of it are as fast as what they follow. 0: none is.
+  double real_time = 0;
   double uncertainty = 0; ///< the reference's, percent
   std::vector<Series> series{};
   std::vector<Point> points{}; ///< whose Pareto front is drawn
@@ -58,9 +57,8 @@ void write_data(CsvWriter& csv, const ErrorPlot& plot) {
     block(series.method, series.joined);
     block(series.method + " others", series.loose);
   }
-  std::vector<Point> front;
-  for (const std::size_t i : pareto_front(plot.points))
-    if (plot.points[i].error_percent > 0) front.push_back(plot.points[i]);
+  std::vector<Point> front = pareto_front(plot.points);
+  if (!front.empty() && !(front.back().error_percent > 0)) front.pop_back();
   block("Pareto front", front);
 }
 
@@ -81,7 +79,7 @@ PlotValues values_of(const ErrorPlot& plot) {
   return {{"headline", plot.headline},
           {"points", plot.data},
           {"time_label", plot.time + ", " + plot.unit},
-          {"real_time", plot.real_time.value_or(0)},
+          {"real_time", plot.real_time},
           {"methods", methods},
           {"linetypes", linetypes},
           {"markers", markers},
@@ -122,11 +120,7 @@ Appearance appearance(const Variant& v, int number) {
 
 /// The points of every method: joined are those that all methods have, of the tightest tolerance, or with the
 /// case's own step.
-/// @param floor_of      the error whose floor springs have; nothing: none
-/// @param point_of_row  gives a row's point; nothing: it has none
-template<class PointOfRow>
-std::vector<Series> series_of(const Sweep& sweep, std::optional<Error> floor_of,
-                              const PointOfRow& point_of_row) {
+std::vector<Series> series_of(const Sweep& sweep, Error error, Clock clock) {
   std::vector<Series> all;
   std::array<int, 2> n_designs{}; // ours, and of others
   const auto& dynamics = sweep.definition.dynamics;
@@ -143,10 +137,10 @@ std::vector<Series> series_of(const Sweep& sweep, std::optional<Error> floor_of,
     Series series{method, appearance(first, n_alike)};
     if (first.program == Program::springs) {
       ++n_alike;
-      if (floor_of) series.floor = errors_by_level(sweep, method, *floor_of).back();
+      if (!dynamics) series.floor = errors_by_level(sweep, method, error).back();
     }
     for (const SweepRow* row : rows)
-      if (const auto point = point_of_row(*row))
+      if (const auto point = point_of(sweep, *row, error, clock))
         series.add(*point, dynamics ? std::abs(row->variant.step - dynamics->step) < 1e-9 * dynamics->step
                                     : row->variant.tolerance == tightest);
     if (dynamics || !series.joined.empty() || !series.loose.empty()) all.push_back(series);
@@ -154,30 +148,25 @@ std::vector<Series> series_of(const Sweep& sweep, std::optional<Error> floor_of,
   return all;
 }
 
-struct Picture {
-  Error error;
-  Clock clock;
-  const char *name, *title;
-};
-constexpr Picture pictures[] = {
-    {Error::field, Clock::first_answer, "field_first", "displacement field, first answer (setup and solve)"},
-    {Error::field, Clock::re_solve, "field_again", "displacement field, re-solve after a load change of 5 %"},
-    {Error::worst_measure, Clock::first_answer, "measures_first",
-     "worst measure, first answer (setup and solve)"},
-    {Error::worst_measure, Clock::re_solve, "measures_again",
-     "worst measure, re-solve after a load change of 5 %"}};
+ErrorPlot plot_of(const Sweep& sweep, Error error, Clock clock) {
+  ErrorPlot plot;
+  plot.uncertainty = uncertainty_percent(*sweep.reference, error);
+  plot.series = series_of(sweep, error, clock);
+  plot.points = points_of(sweep, error, clock);
+  return plot;
+}
 
 void plot_motions(const std::string& folder, const Sweep& sweep) {
   const double ms = 1e3 * sweep.definition.dynamics->step;
-  ErrorPlot plot{
-      "motion_sweep", "motion_sweep_points.csv",
+  ErrorPlot plot = plot_of(sweep, Error::field, Clock::first_answer);
+  plot.name = "motion_sweep";
+  plot.data = "motion_sweep_points.csv";
+  plot.headline =
       fmt::format("{}: motions on one thread; lines: steps of {:g} ms, small marks: {:g} and {:g} ms",
-                  sweep.definition.name, ms, step_factors[0] * ms, step_factors[2] * ms),
-      "computing for a second of motion", "s"};
-  plot.real_time = 1;
-  plot.uncertainty = sweep.reference->field.uncertainty_percent;
-  plot.series = series_of(sweep, std::nullopt, [&](const SweepRow& row) { return motion_point(sweep, row); });
-  plot.points = motion_points(sweep);
+                  sweep.definition.name, ms, step_factors[0] * ms, step_factors[2] * ms);
+  plot.time = "computing for a second of motion";
+  plot.unit = "s";
+  plot.unit_seconds = plot.real_time = 1;
   plot_errors(folder, plot);
 }
 
@@ -186,19 +175,15 @@ void plot_motions(const std::string& folder, const Sweep& sweep) {
 void plot_sweep(const std::string& folder, const Sweep& sweep) {
   if (!sweep.reference) return;
   if (sweep.definition.dynamics) return plot_motions(folder, sweep);
-  for (const Picture& picture : pictures) {
-    ErrorPlot plot{picture.name,
-                   picture.name + std::string(".csv"),
-                   sweep.definition.name + ": " + picture.title,
-                   "time",
-                   "ms",
-                   1e-3};
-    plot.uncertainty = uncertainty_percent(*sweep.reference, picture.error);
-    plot.series = series_of(sweep, picture.error,
-                            [&](const SweepRow& row) { return point_of(row, picture.error, picture.clock); });
-    plot.points = points_of(sweep, picture.error, picture.clock);
-    plot_errors(folder, plot); // which has no points of a case without measures, for one
-  }
+  for (const Error error : {Error::field, Error::worst_measure})
+    for (const Clock clock : {Clock::first_answer, Clock::re_solve}) {
+      ErrorPlot plot = plot_of(sweep, error, clock);
+      plot.name = fmt::format("{}_{}", error == Error::field ? "field" : "measures",
+                              clock == Clock::first_answer ? "first" : "again");
+      plot.data = plot.name + ".csv";
+      plot.headline = fmt::format("{}: {}, {}", sweep.definition.name, what(error), what(clock));
+      plot_errors(folder, plot); // which has no points of a case without measures, for one
+    }
 }
 
 } // namespace springproof::compare

@@ -109,8 +109,8 @@ struct LeftOut {
 };
 
 /// Levels of cells, each of twice the level before: four, of a quick sweep three. They start at half the
-/// box's own cells where these are even, at its own otherwise.
-std::vector<std::array<int, 3>> levels_of(const cases::Box& box, Extent extent);
+/// box's own cells where these are even, at its own otherwise.  @throws InputError for another body
+std::vector<std::array<int, 3>> levels_of(const cases::Case& definition, Extent extent);
 
 /// Tolerances (in time: steps) with which a sweep solves springs.
 enum class Settings { all, one };

@@ -1,7 +1,6 @@
 #include "compare/sweep/write_sweep.hpp"
 
 #include "compare/provenance/print.hpp"
-#include "compare/sweep/analysis.hpp"
 
 #include <algorithm>
 #include <array>
@@ -56,8 +55,7 @@ void write_two(std::ostream& out, const std::string& label, const std::array<std
 /// ">" before the faster, with its factor; "~" where the error is small by accident.
 std::string fastest_text(const std::vector<Point>& points, double percent, Family family) {
   const auto own = fastest_within(points, percent, family),
-             rival = fastest_within(points, percent,
-                                    family == Family::springs ? Family::finite_elements : Family::springs);
+             rival = fastest_within(points, percent, other(family));
   if (!own) return "          none";
   const Point& point = points[*own];
   const bool wins = !rival || point.seconds <= points[*rival].seconds;
@@ -215,7 +213,8 @@ void write_motions(std::ostream& out, const Sweep& sweep) {
     write_paragraph(out, sentence, "  ", "    ");
   out << "\nSpeed against error: no motion is both faster and more accurate than\n";
   print(out, "  {:>26} {:>9}\n", "s of computing a second", "error");
-  for (const Point& point : thinned_front(motion_points(sweep), 2 * n_told_points))
+  for (const Point& point :
+       thinned_front(points_of(sweep, Error::field, Clock::first_answer), 2 * n_told_points))
     print(out, "  {:>26} {:>9}  {}{}\n", short_number(point.seconds),
           error_text(point, reference.uncertainty_percent), in_short(point.name, screen_width - 42),
           point.more_cells_percent ? " ~" : "");

@@ -4,12 +4,11 @@
 #include "compare/measure/box_plot.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
-#include "compare/sweep/analysis.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 
 namespace springproof::compare {
 
@@ -22,10 +21,6 @@ std::string quartiles(const std::vector<double>& seconds) {
   if (seconds.size() == 1) return fmt::format("{:.3g}", 1e3 * box.median);
   return fmt::format("{:.3g} ({:.3g}-{:.3g})", 1e3 * box.median, 1e3 * box.lower_quartile,
                      1e3 * box.upper_quartile);
-}
-
-std::string percent(const std::optional<double>& value) {
-  return value ? fmt::format("{:+.3g}", *value) : "-";
 }
 
 void write_head(std::ostream& out, const Sweep& sweep) {
@@ -43,28 +38,6 @@ void write_head(std::ostream& out, const Sweep& sweep) {
         "for as many, 1* = no warm-up\n",
         sweep.rules.repetitions, sweep.rules.budget_seconds);
   print(out, "  re-solve: from 95 to 100 % of the load, from the displacement at 95 %\n");
-}
-
-void write_row(std::ostream& out, const SweepRow& row) {
-  const VariantRun& run = row.run;
-  const cases::Solution& s = run.first;
-  print(out, "  {:<34}{:>10} {:>6}", method_name(row.variant), cells_name(row.variant.cells),
-        row.variant.program == Program::calculix ? "-" : fmt::format("{:.0e}", row.variant.tolerance));
-  if (s.status != cases::Status::converged) {
-    print(out, "  {}: {}\n", cases::name_of(s.status), s.message);
-    return;
-  }
-  const std::string n = fmt::format("{}{}", run.first_seconds.size(), run.is_warm ? "" : "*");
-  print(out, " {:>8} {:>3} {:>22} {:>22} {:>22} {:>4} {:>5} {:>4} {:>5} {:>7}", s.unknowns, n,
-        quartiles(run.setup_seconds), quartiles(run.first_seconds), quartiles(run.again_seconds),
-        s.newton_iterations, s.linear_iterations, s.factorisations, s.force_evaluations,
-        run.peak_megabytes ? fmt::format("{:.0f}", *run.peak_megabytes - run.start_megabytes.value_or(0))
-                           : "-");
-  print(out, " {:>8}", row.field_error_percent ? fmt::format("{:.3g}", *row.field_error_percent) : "-");
-  for (const auto& error : row.measure_error_percent) print(out, " {:>9}", percent(error));
-  print(out, "\n");
-  if (run.again.status == cases::Status::failed)
-    print(out, "  {:<34}re-solve failed: {}\n", "", run.again.message);
 }
 
 void write_reference(std::ostream& out, const Sweep& sweep) {
@@ -144,44 +117,76 @@ Json motion_row_to_json(const SweepRow& row) {
           {"error_percent", row.field_error_percent}};
 }
 
-void write_left_out(std::ostream& out, const Sweep& sweep) {
-  for (const LeftOut& left : sweep.plan.left_out) print(out, "left out: {}: {}\n", left.what, left.reason);
+/// Writes a line for each row, then why some have no answer, or none to another load.
+void write_rows(std::ostream& out, const Sweep& sweep, const Columns& columns,
+                const std::function<Json(const SweepRow&)>& to_json) {
+  Json rows = Json::array();
+  std::vector<std::string> reasons;
+  for (const SweepRow& row : sweep.rows) {
+    const cases::Solution &first = row.run.first, &again = row.run.again;
+    if (first.status != cases::Status::converged)
+      reasons.push_back(full_name(row.variant) + " " + cases::name_of(first.status) + ": " + first.message);
+    else
+      rows.push_back(to_json(row));
+    if (again.status == cases::Status::failed)
+      reasons.push_back(full_name(row.variant) + ": re-solve failed: " + again.message);
+  }
+  write_table(out, columns, rows);
+  for (const std::string& reason : reasons) print(out, "  {}\n", reason);
+}
+
+void write_variants_text(std::ostream& out, const Sweep& sweep) {
+  Columns columns = columns_of("method cells{:<} tol.=tolerance{:.0e} unknowns n setup,~ms=setup "
+                               "first~solve,~ms=solve re-solve,~ms=re-solve New.=first.newton_iterations "
+                               "CG=first.linear_iterations fac.=first.factorisations "
+                               "for.=first.force_evaluations MB{:.0f} field~%=error_percent.field{:.3g}");
+  for (const cases::Measure& measure : sweep.definition.measures)
+    columns.push_back({measure.name + " %", "error_percent." + measure.name, "{:+.3g}"});
+  write_rows(out, sweep, columns, [&](const SweepRow& row) {
+    const VariantRun& run = row.run;
+    Json json = row_to_json(sweep, row);
+    json.update({{"cells", cells_name(row.variant.cells)},
+                 {"n", fmt::format("{}{}", run.first_seconds.size(), run.is_warm ? "" : "*")},
+                 {"setup", quartiles(run.setup_seconds)},
+                 {"solve", quartiles(run.first_seconds)},
+                 {"re-solve", quartiles(run.again_seconds)}});
+    if (run.peak_megabytes) json["MB"] = *run.peak_megabytes - run.start_megabytes.value_or(0);
+    return json;
+  });
 }
 
 void write_motions_text(std::ostream& out, const Sweep& sweep) {
   print(out, "  one run of each on one thread, one after the other; times without setting up\n");
   print(out, "  reference: {}; uncertainty {:.2g} %\n", sweep.reference->field.note,
         sweep.reference->field.uncertainty_percent);
-  print(out, "  {:<34}{:>12} {:>9} {:>9} {:>24} {:>9}\n", "method", "cells", "step, ms", "unknowns",
-        "s of computing a second", "error, %");
-  for (const SweepRow& row : sweep.rows) {
-    const cases::Solution& s = row.run.first;
-    print(out, "  {:<34}{:>12} {:>9.4g} {:>9}", method_name(row.variant), cells_name(row.variant.cells),
-          1e3 * row.variant.step, s.unknowns);
-    if (row.field_error_percent)
-      print(out, " {:>24.3g} {:>9.3g}\n", row.run.first_seconds.front(), *row.field_error_percent);
-    else
-      print(out, " {}: {}\n", cases::name_of(s.status), s.message);
-  }
-  write_left_out(out, sweep);
-  for (const std::string& sentence : interactive_sentences(sweep)) print(out, "{}\n", sentence);
+  write_rows(out, sweep,
+             columns_of("method cells{:<} step,~ms=step{:.4g} unknowns "
+                        "s~of~computing~a~second=seconds_per_second{:.3g} error,~%=error_percent{:.3g}"),
+             [](const SweepRow& row) {
+               Json json = motion_row_to_json(row);
+               json.update({{"cells", cells_name(row.variant.cells)}, {"step", 1e3 * row.variant.step}});
+               return json;
+             });
 }
 
 } // namespace
 
 void write_sweep_text(std::ostream& out, const Sweep& sweep) {
+  const bool moves = sweep.definition.dynamics.has_value();
   print(out, "{}: {}\n", sweep.definition.name, sweep.definition.description);
   for (const std::string& setting : sweep.settings) print(out, "  with {}\n", setting);
-  if (sweep.definition.dynamics) return write_motions_text(out, sweep);
-  write_head(out, sweep);
-  print(out, "  {:<34}{:>10} {:>6} {:>8} {:>3} {:>22} {:>22} {:>22} {:>4} {:>5} {:>4} {:>5} {:>7} {:>8}",
-        "method", "cells", "tol.", "unknowns", "n", "setup, ms", "first solve, ms", "re-solve, ms", "New.",
-        "CG", "fac.", "for.", "MB", "field %");
-  for (const cases::Measure& measure : sweep.definition.measures) print(out, " {:>9}", measure.name + " %");
-  print(out, "\n");
-  for (const SweepRow& row : sweep.rows) write_row(out, row);
-  write_reference(out, sweep);
-  write_left_out(out, sweep);
+  if (moves) {
+    write_motions_text(out, sweep);
+  } else {
+    write_head(out, sweep);
+    write_variants_text(out, sweep);
+    write_reference(out, sweep);
+  }
+  for (const LeftOut& left : sweep.plan.left_out) print(out, "left out: {}: {}\n", left.what, left.reason);
+  if (moves) {
+    for (const std::string& sentence : interactive_sentences(sweep)) print(out, "{}\n", sentence);
+    return;
+  }
   for (const Conclusions& group : conclusions(sweep)) {
     print(out, "{}\n", group.heading);
     for (const std::string& sentence : group.sentences) print(out, "  {}\n", sentence);

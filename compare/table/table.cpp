@@ -1,18 +1,16 @@
 #include "compare/table/table.hpp"
 
+#include "cases/case/rows.hpp"
+
 #include <algorithm>
-#include <numeric>
+#include <fmt/ostream.h>
 #include <sstream>
 
 namespace springproof::compare {
 
 namespace {
 
-constexpr std::size_t indent_of_tables = 2, gap = 2;
-
-std::string blanks(std::size_t n) {
-  return std::string(n, ' ');
-}
+constexpr const char* gap = "  "; ///< in front of each column
 
 const std::string& key_of(const Column& column) {
   return column.key.empty() ? column.heading : column.key;
@@ -26,14 +24,61 @@ std::string printed_value(const Json& value, const std::string& format) {
   return fmt::format(fmt::runtime(format.empty() ? "{}" : format), value.get<double>());
 }
 
+/// Follows RFC 4180: a text with a comma or a quote stands in quotes, and its quotes are doubled. An
+/// apostrophe goes before what begins as a formula does.
+std::string text_field(const std::string& any_text) {
+  std::string text = one_line(any_text);
+  // A spreadsheet would take it for a formula, which can start programs.
+  if (text.find_first_of("=+-@\t") == 0 && !cases::number_in<double>(text)) text.insert(0, 1, '\'');
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string csv_field(const Json& value, int digits) {
+  if (value.is_null()) return "";
+  if (value.is_string()) return text_field(value.get_ref<const std::string&>());
+  if (value.is_boolean()) return value.get<bool>() ? "1" : "0";
+  if (value.is_number_float()) return fmt::format("{:.{}g}", value.get<double>(), digits);
+  if (!value.is_array()) return value.dump();
+  std::vector<std::string> entries;
+  for (const Json& entry : value)
+    entries.push_back(entry.is_string() ? entry.get<std::string>() : csv_field(entry, digits));
+  return text_field(fmt::format("{}", fmt::join(entries, " ")));
+}
+
+using Texts = std::vector<std::string>;
+
+/// Texts of a column, the heading first, filled up to the width of the longest.
+Texts filled_texts(const Column& column, const Json& rows, bool is_left) {
+  Texts texts{one_line(column.heading)};
+  for (const Json& row : rows)
+    texts.push_back(one_line(printed_value(value_at(row, key_of(column)), column.format)));
+  std::size_t width = 0;
+  for (const std::string& text : texts) width = std::max(width, n_characters(text));
+  for (std::string& text : texts) text.insert(is_left ? text.size() : 0, width - n_characters(text), ' ');
+  return texts;
+}
+
+/// The columns' texts. Those of the first column begin at the left.
+std::vector<Texts> filled_columns(const Columns& columns, const Json& rows) {
+  std::vector<Texts> all;
+  for (const Column& column : columns)
+    all.push_back(filled_texts(column, rows, all.empty() || column.format.find('<') != std::string::npos));
+  return all;
+}
+
 } // namespace
 
 Columns columns_of(const std::string& text) {
   Columns columns;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
-    const std::size_t end = std::min(word.find('='), word.size());
-    columns.push_back({word.substr(0, end), word.substr(std::min(end + 1, word.size()))});
+    std::replace(word.begin(), word.end(), '~', ' ');
+    const std::size_t format = std::min(word.find('{'), word.size()), key = std::min(word.find('='), format);
+    columns.push_back({word.substr(0, key), word.substr(key, format - key), word.substr(format)});
+    columns.back().key.erase(0, 1); // the sign of equality, where there is one
   }
   return columns;
 }
@@ -48,6 +93,14 @@ Json value_at(const Json& row, const std::string& key) {
   const auto entry = cases::number_in<std::size_t>(first);
   if (!row.is_array() || !entry || *entry >= row.size()) return nullptr;
   return rest.empty() ? row.at(*entry) : value_at(row.at(*entry), rest);
+}
+
+void CsvWriter::write(const Json& fields) {
+  std::vector<std::string> texts;
+  for (const Json& value : fields)
+    for (const Json& part : value.is_array() ? value : Json::array({value}))
+      texts.push_back(csv_field(part, digits_));
+  fmt::print(out_, "{}\n", fmt::join(texts, ","));
 }
 
 void write_csv(std::ostream& out, const Columns& columns, const Json& rows, int digits) {
@@ -66,52 +119,24 @@ void write_json_file(const std::string& path, const Json& document) {
   write_file(path, [&](std::ostream& out) { out << json_text(document); });
 }
 
-std::size_t printed_width(const std::string& text) {
-  return n_characters(one_line(text));
-}
-
 void write_wrapped(std::ostream& out, const std::string& text, std::size_t indent) {
   const std::size_t first = std::min(text.find_first_not_of(' '), text.size());
-  write_paragraph(out, text.substr(first), blanks(first), blanks(indent));
+  write_paragraph(out, text.substr(first), std::string(first, ' '), std::string(indent, ' '));
 }
 
-TextTable::TextTable(Columns columns, const Json& rows) : columns_(std::move(columns)) {
-  for (const Json& row : rows) {
-    rows_.emplace_back();
-    for (const Column& column : columns_)
-      rows_.back().push_back(printed_value(value_at(row, key_of(column)), column.format));
-  }
+std::size_t table_width(const Columns& columns, const Json& rows) {
+  std::string line;
+  for (const Texts& texts : filled_columns(columns, rows)) line += gap + texts.front();
+  return n_characters(line);
 }
 
-std::vector<std::size_t> TextTable::widths() const {
-  std::vector<std::size_t> all;
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    all.push_back(printed_width(columns_[c].heading));
-    for (const auto& row : rows_) all.back() = std::max(all.back(), printed_width(row.at(c)));
-  }
-  return all;
-}
-
-std::size_t TextTable::width() const {
-  const std::vector<std::size_t> all = widths();
-  return std::accumulate(all.begin(), all.end(), indent_of_tables + gap * (all.size() - 1));
-}
-
-void TextTable::write(std::ostream& out) const {
-  const std::vector<std::size_t> all = widths();
-  const auto write_row = [&](const auto& text_in) {
+void write_table(std::ostream& out, const Columns& columns, const Json& rows) {
+  const std::vector<Texts> all = filled_columns(columns, rows);
+  for (std::size_t row = 0; row <= rows.size(); ++row) {
     std::string line;
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      const std::string text = one_line(text_in(c)), fill = blanks(all[c] - printed_width(text));
-      const bool is_left = c == 0 || columns_[c].format.find('<') != std::string::npos;
-      line += blanks(c == 0 ? indent_of_tables : gap);
-      line += is_left ? text + fill : fill + text;
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    print(out, "{}\n", line);
-  };
-  write_row([&](std::size_t c) { return columns_[c].heading; });
-  for (const auto& row : rows_) write_row([&](std::size_t c) { return row.at(c); });
+    for (const Texts& texts : all) line += gap + texts[row];
+    print(out, "{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+  }
 }
 
 } // namespace springproof::compare

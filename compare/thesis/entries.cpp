@@ -274,9 +274,8 @@ std::vector<SummaryGroup> summarise(const std::vector<TableEntry>& entries) {
         tables.insert(entry.published.table);
       }
     if (members.empty()) continue;
-    SummaryGroup group{kind.name, kind.unit, static_cast<int>(members.size()), {}, kind.listing_bound,
-                       {},        {}};
-    group.trace.command = fmt::format("build/springproof tables {}", fmt::join(tables, " "));
+    SummaryGroup group{kind.name, kind.unit, static_cast<int>(members.size()), {}, kind.listing_bound};
+    group.command = fmt::format("build/springproof tables {}", fmt::join(tables, " "));
     for (const double bound : kind.bounds) group.within.push_back(count(members, bound));
     for (const TableEntry* entry : members) {
       const bool is_beyond = count({entry}, kind.listing_bound).neither == 1;

@@ -15,7 +15,6 @@
 #include <fmt/ostream.h>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 namespace springproof::compare {
 
@@ -204,25 +203,28 @@ void draw_cubes(const std::string& folder, const std::string& name, const std::v
 void draw_volumes(const std::string& folder, const std::vector<CaseVolumes>& all,
                   std::vector<Figure>& figures) {
   std::vector<std::string> labels; // two words, which stand below each other
-  double rest = 1;
-  std::ostringstream boxes, outliers;
-  CsvWriter box(boxes), outlier(outliers);
-  box.row("# position", "case", "lower_whisker", "lower_quartile", "median", "upper_quartile",
-          "upper_whisker (mm3)");
-  outlier.row("# position", "volume (mm3) of an outlier");
+  std::vector<const CaseVolumes*> drawn;
   for (const auto& [test, load_set] : panel_order)
-    for (const CaseVolumes& of_case : all) {
-      if (of_case.name != fmt::format("cube-{}-{}-ogden", test, load_set) || !of_case.msm) continue;
-      const BoxPlot& b = of_case.msm->per_cell;
-      rest = of_case.rest_per_cell;
-      labels.push_back(fmt::format("{} {}", test, load_set));
-      box.row(labels.size(), of_case.name, b.lower_whisker, b.lower_quartile, b.median, b.upper_quartile,
+    for (const CaseVolumes& of_case : all)
+      if (of_case.name == fmt::format("cube-{}-{}-ogden", test, load_set) && of_case.msm) {
+        labels.push_back(fmt::format("{} {}", test, load_set));
+        drawn.push_back(&of_case);
+      }
+  if (drawn.empty()) return;
+  write_csv_file(folder + "/figure_5_10.csv", [&](CsvWriter& csv) {
+    csv.row("# position", "case", "lower_whisker", "lower_quartile", "median", "upper_quartile",
+            "upper_whisker (mm3)");
+    for (std::size_t c = 0; c < drawn.size(); ++c) {
+      const BoxPlot& b = drawn[c]->msm->per_cell;
+      csv.row(c + 1, drawn[c]->name, b.lower_whisker, b.lower_quartile, b.median, b.upper_quartile,
               b.upper_whisker);
-      for (const double volume : b.outliers) outlier.row(labels.size(), volume);
     }
-  if (labels.empty()) return;
-  box.end_block();
-  write_file(folder + "/figure_5_10.csv", [&](std::ostream& out) { out << boxes.str() << outliers.str(); });
+    csv.end_block();
+    csv.row("# position", "volume (mm3) of an outlier");
+    for (std::size_t c = 0; c < drawn.size(); ++c)
+      for (const double volume : drawn[c]->msm->per_cell.outliers) csv.row(c + 1, volume);
+  });
+  const double rest = drawn.back()->rest_per_cell;
   draw(folder, "figure_5_10", "volumes", {{"labels", labels}, {"rest", rest}, {"width", 900.}});
   describe({"figure_5_10"}, figures);
 }

@@ -1,9 +1,10 @@
-#include "compare/thesis/layout.hpp"
+#include "compare/thesis/write.hpp"
 
 #include "compare/provenance/print.hpp"
+#include "compare/table/table.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <fmt/ostream.h>
 #include <map>
 #include <set>
 #include <sstream>
@@ -90,6 +91,18 @@ std::string label_of(const Sheet& sheet, const Sheet::Row& row) {
   return symbol == symbols.end() ? row.measure : symbol->second;
 }
 
+/// A table as it stands on the screen.
+struct Layout {
+  struct Row {
+    std::string label;
+    std::vector<const TableEntry*> cells; ///< one per head; null where print has no figure
+  };
+  std::string title;
+  std::vector<std::string> heads;
+  std::vector<Row> rows;
+  std::size_t cell_width; ///< characters
+};
+
 /// "msm_eigenvalue_2": the second row of the column "msm_eigenvalue".
 Layout spectrum_layout(const Sheet& sheet) {
   Layout layout{title_of(sheet), {}, {}, 17};
@@ -136,6 +149,70 @@ Lines beside(const Lines& left, const Lines& right) {
                                      : start);
   }
   return lines;
+}
+
+Layout layout_of(const Sheet& sheet) {
+  if (is_of_one_cell(sheet) && sheet.columns.size() == 1) return spectrum_layout(sheet);
+  Layout layout{title_of(sheet), {}, {}, is_of_one_cell(sheet) ? std::size_t{15} : 17};
+  for (const auto& column : sheet.columns) layout.heads.push_back(head_of(sheet, column));
+  for (const Sheet::Row& row : sheet.rows) layout.rows.push_back({label_of(sheet, row), row.cells});
+  return layout;
+}
+
+/// A table's lines, without their ends; one that is wider than the screen is divided into parts of as many
+/// columns as fit.
+Lines lines_of(const Layout& layout) {
+  const std::size_t n = layout.heads.size(), labels = label_width(layout);
+  const std::size_t n_fitting = std::max<std::size_t>(1, (screen_width - labels) / layout.cell_width);
+  const std::size_t n_parts = (n + n_fitting - 1) / n_fitting, n_columns = (n + n_parts - 1) / n_parts;
+  Lines lines = lines_in(paragraph(layout.title, "", "  ", is_narrow(layout) ? half_screen : screen_width));
+  for (std::size_t from = 0; from < n; from += n_columns) {
+    const std::size_t to = std::min(n, from + n_columns);
+    std::string heads(labels, ' ');
+    for (std::size_t c = from; c < to; ++c)
+      heads += fmt::format("{:>{}}", layout.heads[c], layout.cell_width);
+    if (heads.find_first_not_of(' ') != std::string::npos) lines.push_back(heads);
+    for (const auto& [label, cells] : layout.rows) {
+      std::string line = fmt::format("{:<{}}", "  " + label, labels);
+      for (std::size_t c = from; c < to; ++c)
+        line += fmt::format("{:>{}}", cells[c] ? cell_text(*cells[c]) : "", layout.cell_width);
+      lines.push_back(line.substr(0, line.find_last_not_of(' ') + 1));
+    }
+  }
+  return lines;
+}
+
+/// Adds the rows of one measure: each reference, print, the difference of the nearest, and what explains a
+/// beta_1.
+void add_rows(Json& rows, const Sheet::Row& row) {
+  const auto& [test, measure, cells, first] = row;
+  const int digits = digits_of(first->published);
+  const auto add = [&](const std::string& label, const auto& text_of) {
+    Json texts = Json::array();
+    for (const TableEntry* entry : row.cells) texts.push_back(entry ? text_of(*entry) : std::string());
+    rows.push_back({{"test", ""}, {"measure", ""}, {"label", label}, {"cells", texts}});
+  };
+  const std::size_t n_before = rows.size();
+  for (std::size_t k = 0; k < first->computed.size(); ++k)
+    add(first->computed[k].reference, [&](const TableEntry& entry) {
+      const bool is_marked = entry.computed.size() > 1 && entry.nearest() == &entry.computed[k];
+      return value_text(entry.computed[k].value, digits) + (is_marked ? "*" : "");
+    });
+  rows[n_before].update({{"test", test}, {"measure", measure}});
+  add(measure == "beta_1" ? "published (!)" : "published",
+      [&](const TableEntry& entry) { return value_text(entry.published.value, digits); });
+  add("difference", [&](const TableEntry& entry) {
+    const ComputedFigure* nearest = entry.nearest();
+    return value_text(nearest ? entry.difference(*nearest) : std::nullopt, digits);
+  });
+  const auto is_large = [](const TableEntry* e) { return e && e->published.load_set == "large"; };
+  // It explains the large rows in print; of the small ones nothing does.
+  if (measure == "beta_1" && std::any_of(cells.begin(), cells.end(), is_large))
+    add("45 deg + small beta_2", [&](const TableEntry& entry) {
+      if (!is_large(&entry)) return std::string();
+      const auto [reference, value] = nearest_from_beta_2(entry);
+      return value_text(reference ? std::optional(value) : std::nullopt, digits);
+    });
 }
 
 } // namespace
@@ -193,14 +270,6 @@ int digits_of(const PublishedFigure& figure) {
   return figure.test == "cell" ? 4 : 2;
 }
 
-Layout layout_of(const Sheet& sheet) {
-  if (is_of_one_cell(sheet) && sheet.columns.size() == 1) return spectrum_layout(sheet);
-  Layout layout{title_of(sheet), {}, {}, is_of_one_cell(sheet) ? std::size_t{15} : 17};
-  for (const auto& column : sheet.columns) layout.heads.push_back(head_of(sheet, column));
-  for (const Sheet::Row& row : sheet.rows) layout.rows.push_back({label_of(sheet, row), row.cells});
-  return layout;
-}
-
 std::string cell_text(const TableEntry& entry) {
   const ComputedFigure& declared = entry.declared();
   if (!declared.value) return "failed";
@@ -210,27 +279,6 @@ std::string cell_text(const TableEntry& entry) {
                      : entry.nearest() != &declared   ? "*"
                      : entry.published.test == "cell" ? ""
                                                       : " ");
-}
-
-std::vector<std::string> lines_of(const Layout& layout) {
-  const std::size_t n = layout.heads.size(), labels = label_width(layout);
-  const std::size_t n_fitting = std::max<std::size_t>(1, (screen_width - labels) / layout.cell_width);
-  const std::size_t n_parts = (n + n_fitting - 1) / n_fitting, n_columns = (n + n_parts - 1) / n_parts;
-  Lines lines = lines_in(paragraph(layout.title, "", "  ", is_narrow(layout) ? half_screen : screen_width));
-  for (std::size_t from = 0; from < n; from += n_columns) {
-    const std::size_t to = std::min(n, from + n_columns);
-    std::string heads(labels, ' ');
-    for (std::size_t c = from; c < to; ++c)
-      heads += fmt::format("{:>{}}", layout.heads[c], layout.cell_width);
-    if (heads.find_first_not_of(' ') != std::string::npos) lines.push_back(heads);
-    for (const auto& [label, cells] : layout.rows) {
-      std::string line = fmt::format("{:<{}}", "  " + label, labels);
-      for (std::size_t c = from; c < to; ++c)
-        line += fmt::format("{:>{}}", cells[c] ? cell_text(*cells[c]) : "", layout.cell_width);
-      lines.push_back(line.substr(0, line.find_last_not_of(' ') + 1));
-    }
-  }
-  return lines;
 }
 
 std::vector<std::string> lines_of(const std::vector<Sheet>& sheets) {
@@ -245,6 +293,31 @@ std::vector<std::string> lines_of(const std::vector<Sheet>& sheets) {
     all.insert(all.end(), lines.begin(), lines.end());
   }
   return all;
+}
+
+void write_sheet(std::ostream& out, const Sheet& sheet) {
+  const bool has_two = sheet.entries.front()->computed.size() > 1;
+  fmt::print(out, "\n{}: {}{}\n", name_of(sheet), subject_of(sheet),
+             has_two ? "; first the declared reference; * the one nearer to print" : "");
+  Columns columns = columns_of("=test =measure{:<} =label{:<}");
+  Json rows(2, {{"test", ""}, {"measure", ""}, {"label", ""}}); // further lines of the heading
+  for (const auto& column : sheet.columns) {
+    columns.push_back({column[0], fmt::format("cells.{}", columns.size() - 3)});
+    for (const std::size_t part : {1, 2}) rows[part - 1]["cells"].push_back(column[part]);
+  }
+  for (const Sheet::Row& row : sheet.rows) add_rows(rows, row);
+  write_table(out, columns, rows);
+  const bool has_beta_1 = std::any_of(sheet.entries.begin(), sheet.entries.end(),
+                                      [](const TableEntry* e) { return e->published.measure == "beta_1"; });
+  if (has_beta_1)
+    fmt::print(out,
+               "  (!) the printed beta_1 is not the rotation that the text defines; ours is: see the end\n");
+  for (const TableEntry* entry : sheet.entries)
+    for (const ComputedFigure& c : entry->computed) {
+      const std::string name = fmt::format("{} ({})", name_of(entry->published), c.reference);
+      if (!c.value) fmt::print(out, "  no value: {}: {}\n", name, c.reason);
+      fmt::print(out, "  {}: {}\n", name, c.trace.command);
+    }
 }
 
 } // namespace springproof::compare

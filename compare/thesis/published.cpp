@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <utility>
 
 namespace springproof::compare {
 
@@ -22,36 +21,9 @@ std::string path_of(const std::string& name) {
 
 std::vector<PublishedFigure> read_published_figures() {
   std::vector<PublishedFigure> figures;
-  const auto add_of_cell = [&](const CsvRow& row, const std::string& measure, const std::string& unit,
-                               std::size_t field) {
-    figures.push_back({row[0], "linear_elastic", row.number(1), "linear_method", row.number(1), "", "cell",
-                       measure, unit, row.number(field)});
-  };
-  const char* springs[] = {"edge", "face_diagonal", "internal_diagonal"};
-  for (std::size_t kind = 0; kind < 3; ++kind) // row by row, as in print
-    for (const CsvRow& row : read_csv(path_of("pseudo_stiffness")))
-      add_of_cell(row, springs[kind], "1", 2 + kind);
-  for (const CsvRow& row : read_csv(path_of("eigenvalues"))) {
-    add_of_cell(row, row[2] + "_eigenvalue_" + row[3], "N/mm", 4);
-    add_of_cell(row, row[2] + "_multiplicity_" + row[3], "1", 5);
-  }
-  for (const CsvRow& row : read_csv(path_of("h_metric"))) add_of_cell(row, "h", "1", 2);
-  for (const CsvRow& row : read_csv(path_of("errors")))
-    figures.push_back(
-        {row[0], row[1], row.number(2), row[3], row.number(4), row[5], row[6], row[7], "%", row.number(8)});
-  // Table 5.2 and figure 5.12 are of the Ogden material and its nonlinear design (thesis sections 5.3.1.3
-  // and 5.3.3).
-  for (const CsvRow& row : read_csv(path_of("volumes")))
-    figures.push_back(
-        {row[0], "ogden", 0.5, "nonlinear_method", 0.5, row[1], row[2], "volume", "mm3", row.number(3)});
-  for (const CsvRow& row : read_csv(path_of("bar_deflection")))
-    figures.push_back({row[0], "ogden", 0.5, "nonlinear_method", 0.5, "",
-                       "bar_" + row[1] + "x" + row[2] + "x" + row[3], "deflection", "%", row.number(4)});
-  const auto number = [](const PublishedFigure& figure) {
-    return std::pair(figure.table.size(), figure.table);
-  };
-  std::stable_sort(figures.begin(), figures.end(),
-                   [&](const PublishedFigure& a, const PublishedFigure& b) { return number(a) < number(b); });
+  for (const CsvRow& row : read_csv(path_of("figures")))
+    figures.push_back({row[0], row[1], row.number(2), row[3], row.number(4), row[5], row[6], row[7], row[8],
+                       row.number(9)});
   return figures;
 }
 

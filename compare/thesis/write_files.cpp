@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/ostream.h>
 
 namespace springproof::compare {
 
@@ -79,18 +80,24 @@ void write_volumes(std::ostream& out, const ThesisResults& results) {
                 side->solution.cell_volume[cell]);
 }
 
-Json group_to_json(const SummaryGroup& group, const std::vector<TableEntry>& entries) {
-  const Json within = json_list(group.within, [](const Within& w) {
+std::string finding_of(const TableEntry& entry) {
+  return entry.finding.empty() ? "unexplained" : entry.finding;
+}
+
+Json within_to_json(const SummaryGroup& group) {
+  return json_list(group.within, [](const Within& w) {
     return SPRINGPROOF_MEMBERS(w, bound, declared, other_only, neither);
   });
+}
+
+Json group_to_json(const SummaryGroup& group, const std::vector<TableEntry>& entries) {
   const Json beyond = json_list(group.beyond, [&](const TableEntry* entry) -> Json {
-    return {{"entry", entry - entries.data()},
-            {"explanation", entry->finding.empty() ? "unexplained" : entry->finding}};
+    return {{"entry", entry - entries.data()}, {"explanation", finding_of(*entry)}};
   });
   return {{"name", group.name},
           {"unit", group.unit},
           {"entries", group.n_entries},
-          {"within", within},
+          {"within", within_to_json(group)},
           {"listing_bound", group.listing_bound},
           {"beyond", beyond}};
 }
@@ -164,7 +171,8 @@ void write_designs(std::ostream& out, const ThesisResults& results) {
             json_list(results.designs, design_to_json), csv_digits);
 }
 
-void write_box_plot(std::ostream& out, const ThesisResults& results) {
+/// A row for every model that was solved.
+Json box_plots(const ThesisResults& results) {
   Json rows = Json::array();
   for (const CaseVolumes& v : results.volumes)
     for (const char* model : {"fem", "msm"}) {
@@ -177,11 +185,15 @@ void write_box_plot(std::ostream& out, const ThesisResults& results) {
                   {"n_outliers", box["outliers"].size()}});
       rows.push_back(row);
     }
+  return rows;
+}
+
+void write_box_plot(std::ostream& out, const ThesisResults& results) {
   write_csv(out,
             columns_of("case model rest_mm3 total_mm3 total_change_percent rest_per_cell_mm3 "
                        "lower_whisker=whiskers.0 lower_quartile=quartiles.0 median=quartiles.1 "
                        "upper_quartile=quartiles.2 upper_whisker=whiskers.1 n_outliers outliers command"),
-            rows, csv_digits);
+            box_plots(results), csv_digits);
 }
 
 void write_advice(std::ostream& out, const ThesisResults& results) {
@@ -199,7 +211,119 @@ void write_advice(std::ostream& out, const ThesisResults& results) {
             json_list(results.advice, advice_to_json), csv_digits);
 }
 
+void write_designs_text(std::ostream& out, const std::vector<DesignRow>& designs) {
+  if (designs.empty()) return;
+  fmt::print(out, "\nThe same tables with other designs: |error| against the declared reference, %. A method "
+                  "designs from the table's own material.\n");
+  write_table(out,
+              columns_of("table design{:<} figures missing mean=mean_error_percent{:.2f} "
+                         "worst=worst_error_percent{:.2f} where=worst_at{:<}"),
+              json_list(designs, design_to_json));
+  for (const DesignRow& row : designs)
+    for (const std::string& reason : row.reasons)
+      fmt::print(out, "  missing: {} {}: {}\n", row.table, row.design, reason);
+}
+
+void write_volumes_text(std::ostream& out, const ThesisResults& results) {
+  if (results.volumes.empty()) return;
+  fmt::print(out, "\nVolumes, mm3: of the body, and of its cells as box plots (figure 5.10; whiskers at the "
+                  "outermost values within 1.5 times the interquartile range)\n");
+  write_table(
+      out,
+      columns_of("case model{:<} body=total_mm3{:.2f} whisker=whiskers.0{:.4f} quartile=quartiles.0{:.4f} "
+                 "median=quartiles.1{:.4f} quartile=quartiles.2{:.4f} whisker=whiskers.1{:.4f} "
+                 "outliers=n_outliers"),
+      box_plots(results));
+  for (const CellVolumeChange& change : results.cell_volume_changes)
+    fmt::print(out, "  largest change of a cell without outliers, Ogden, {} loads: {} %, published {:g} %\n",
+               change.load_set, value_text(change.computed), change.published);
+}
+
+std::string worst_and_mean(const LoadSetErrors& errors) {
+  if (!errors.worst) return "-";
+  return fmt::format("{:.1f} ({:.1f}){}", *errors.worst, *errors.mean, errors.is_stable ? "" : " unstable");
+}
+
+/// A line that a reader with E and nu in hand can use as it stands.
+void write_recommendation(std::ostream& out, const Advice& a) {
+  const double youngs_modulus = 0.05; // MPa, soft tissue; of a cell of 1 mm
+  std::string springs;
+  if (const auto& k = a.stiffness)
+    springs =
+        ". E = 50 kPa, L0 = 1 mm: " +
+        stiffness_text({youngs_modulus * k->edge, youngs_modulus * k->face_diagonal,
+                        youngs_modulus * k->internal_diagonal, youngs_modulus * k->volume, k->exponents});
+  fmt::print(
+      out,
+      "  nu = {:g}: use {}{}; expect errors up to {:.1f} % under the small loads, {:.1f} % under the large "
+      "ones, volume within {:.1f} %.\n      its {} again (E = 1 MPa): {}\n",
+      a.poissons_ratio, a.design, springs, *a.cube.small.worst, *a.cube.large.worst, *a.cube.worst_volume(),
+      a.stiffness ? "stiffnesses" : "springs", a.trace.command);
+  if (a.stiffness)
+    fmt::print(out, "      its worst errors again: {}\n      {}\n", a.small_trace.command,
+               a.large_trace.command);
+}
+
+void write_advice_text(std::ostream& out, const std::vector<Advice>& advice) {
+  if (advice.empty()) return;
+  fmt::print(out, "\nWhich design to use: stiffnesses for any E and L0 (k = figure x E L0, k_v = figure x E) "
+                  "and |error| on the thesis's cube, worst (mean), %, against the declared reference\n");
+  write_table(out,
+              columns_of("=mark nu=poissons_ratio{:g} design{:<} k_e=stiffness_per_E_L0.0{:.4f} "
+                         "k_f=stiffness_per_E_L0.1{:.4f} k_d=stiffness_per_E_L0.2{:.4f} "
+                         "k_v=volume_stiffness_per_E{:.4f} small~loads{:<} large~loads{:<} =refusal{:<}"),
+              json_list(advice, [](const Advice& a) {
+                Json row = advice_to_json(a);
+                row.update({{"mark", a.is_recommended ? ">" : ""},
+                            {"small loads", worst_and_mean(a.cube.small)},
+                            {"large loads", worst_and_mean(a.cube.large)},
+                            {"refusal", a.refusal()}});
+                return row;
+              }));
+  for (const Advice& a : advice)
+    if (a.is_recommended) write_recommendation(out, a);
+  fmt::print(out,
+             "  Recommended is the smallest worst error over both sets among the designs that stay stable. "
+             "The errors hold for equal strains: loads in proportion to E.\n");
+}
+
+void write_beyond(std::ostream& out, const SummaryGroup& group) {
+  if (group.beyond.empty()) return;
+  fmt::print(out, "  {}: by neither within {:g} {}\n", group.name, group.listing_bound, group.unit);
+  for (const TableEntry* entry : group.beyond) {
+    const PublishedFigure& p = entry->published;
+    fmt::print(out, "    {} {}: published {:g};", p.table, name_of(p), p.value);
+    for (const ComputedFigure& c : entry->computed)
+      fmt::print(out, " {} {};", c.reference,
+                 c.value ? value_text(c.value, digits_of(p)) : "no value: " + c.reason);
+    fmt::print(out, " {}\n", finding_of(*entry));
+  }
+}
+
+void write_summary_text(std::ostream& out, const std::vector<SummaryGroup>& groups) {
+  fmt::print(out, "\nSummary: published figures that are reproduced\n");
+  Json rows = Json::array();
+  for (const SummaryGroup& group : groups)
+    for (Json row : within_to_json(group)) {
+      row.update({{"name", group.name}, {"figures", group.n_entries}, {"unit", group.unit}});
+      rows.push_back(row);
+    }
+  write_table(out,
+              columns_of("=name figures within=bound{:g} =unit{:<} by~the~declared~reference=declared "
+                         "only~by~the~other=other_only by~neither=neither"),
+              rows);
+  for (const SummaryGroup& group : groups) write_beyond(out, group);
+}
+
 } // namespace
+
+void write_audit_text(std::ostream& out, const ThesisResults& results) {
+  for (const Sheet& sheet : sheets_of(results.entries)) write_sheet(out, sheet);
+  write_designs_text(out, results.designs);
+  write_volumes_text(out, results);
+  write_advice_text(out, results.advice);
+  write_summary_text(out, summarise(results.entries));
+}
 
 Json results_to_json(const ThesisResults& results) {
   Json summary{{"entries", results.entries.size()}};

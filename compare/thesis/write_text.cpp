@@ -2,8 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "cases/case/readers.hpp"
-#include "compare/provenance/print.hpp"
-#include "compare/thesis/layout.hpp"
+#include "compare/table/table.hpp"
 
 #include <algorithm>
 #include <set>
@@ -61,19 +60,23 @@ std::string bound_text(const SummaryGroup& group) {
 }
 
 void write_counts(std::ostream& out, const std::vector<TableEntry>& entries) {
-  const EntryCounts counts = count_entries(entries);
-  print(out, "{} published values: {} reproduced, {} not, {} failed\n", counts.n, counts.n_reproduced,
-        counts.n_not_reproduced(), counts.n_failed);
+  int n_reproduced = 0, n_failed = 0;
   std::vector<std::string> parts;
-  for (const SummaryGroup& group : summarise(entries))
+  for (const SummaryGroup& group : summarise(entries)) {
+    n_reproduced += group.n_reproduced;
+    n_failed += group.n_failed;
     parts.push_back(fmt::format("{}: {} of {} within {}", group.name, group.n_reproduced, group.n_entries,
                                 bound_text(group)));
+  }
+  const int n = static_cast<int>(entries.size());
+  print(out, "{} published values: {} reproduced, {} not, {} failed\n", n, n_reproduced,
+        n - n_reproduced - n_failed, n_failed);
   write_paragraph(out, fmt::format("{}", fmt::join(parts, "; ")), "  ", "  ");
   write_failures(out, entries);
 }
 
-std::string one_decimal(const std::optional<double>& value) {
-  return value ? fmt::format("{:.1f}", *value) : "-";
+Json worst_to_json(const CubeErrors& cube) {
+  return {cube.small.worst, cube.large.worst};
 }
 
 /// The design that a case of this Poisson's ratio takes when it names none, among those that were measured.
@@ -85,31 +88,28 @@ const Advice* default_at(const std::vector<Advice>& advice, double poissons_rati
   return found == advice.end() ? nullptr : &*found;
 }
 
-void write_advice_row(std::ostream& out, const Advice& best, const Advice* by_default) {
-  print(out, "  {:<6g}{:<18}{:>6}{:>8}{:>9}", best.poissons_ratio, best.design,
-        one_decimal(best.cube.small.worst), one_decimal(best.cube.large.worst),
-        one_decimal(best.cube.worst_volume()));
-  if (by_default == &best)
-    print(out, "     the same\n");
-  else if (by_default)
-    print(out, "     {:<18}{:>6}{:>8}\n", by_default->design, one_decimal(by_default->cube.small.worst),
-          one_decimal(by_default->cube.large.worst));
-  else
-    print(out, "\n");
-}
-
 void write_advice_table(std::ostream& out, const std::vector<Advice>& advice) {
   if (advice.empty()) return;
   print(out, "\nWhich design to use: worst |error| on the thesis's cube, %, with loads in proportion to E\n");
-  print(out, "  {:<6}{:<18}{:>6}{:>8}{:>9}     {:<18}{:>6}{:>8}\n", "nu", "use", "small", "large", "volume",
-        "without a name", "small", "large");
+  Json rows = Json::array();
   bool differs = false;
   for (const Advice& best : advice) {
     if (!best.is_recommended) continue;
     const Advice* by_default = default_at(advice, best.poissons_ratio);
+    rows.push_back({{"nu", best.poissons_ratio},
+                    {"use", best.design},
+                    {"cube", worst_to_json(best.cube)},
+                    {"volume", best.cube.worst_volume()},
+                    {"default", by_default == &best ? "the same"
+                                : by_default        ? by_default->design
+                                                    : ""}});
+    if (by_default && by_default != &best) rows.back()["other"] = worst_to_json(by_default->cube);
     differs = differs || by_default != &best;
-    write_advice_row(out, best, by_default);
   }
+  write_table(out,
+              columns_of("nu{:g} use{:<} small=cube.0{:.1f} large=cube.1{:.1f} volume{:.1f} "
+                         "without~a~name=default{:<} small=other.0{:.1f} large=other.1{:.1f}"),
+              rows);
   write_paragraph(
       out,
       "The design to use has the smallest worst error of those that are stable in every test; its "
@@ -123,15 +123,6 @@ void write_advice_table(std::ostream& out, const std::vector<Advice>& advice) {
 }
 
 } // namespace
-
-EntryCounts count_entries(const std::vector<TableEntry>& entries) {
-  EntryCounts counts{static_cast<int>(entries.size())};
-  for (const SummaryGroup& group : summarise(entries)) {
-    counts.n_failed += group.n_failed;
-    counts.n_reproduced += group.n_reproduced;
-  }
-  return counts;
-}
 
 void write_tables_text(std::ostream& out, const ThesisResults& results) {
   print(out, "Each figure: ours, then its difference from the printed one. r = (MSM - FEM)/FEM x 100 %.\n\n");

@@ -79,6 +79,12 @@ Json components_to_json(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+std::string exponents_text(const msm::CellStiffness& k) {
+  if (!k.exponents) return "";
+  return fmt::format(", exponents {:.4g}, {:.4g}, {:.4g}", k.exponents->edge, k.exponents->face_diagonal,
+                     k.exponents->internal_diagonal);
+}
+
 std::string cell_text(const msm::CellTerms& terms) {
   const std::array<std::string, 3> kind_names{"edges", "face diagonals", "internal diagonals"};
   std::map<std::pair<int, std::string>, int> n_of; // springs of one kind and stiffness, as printed
@@ -147,21 +153,19 @@ Json loads_to_json(const cases::Scene& scene) {
           {"areas_mm2", areas}};
 }
 
+std::string stiffness_text(const msm::CellStiffness& k) {
+  return fmt::format("k_e, k_f, k_d = {:.4g}, {:.4g}, {:.4g} N/m", 1e3 * k.edge, 1e3 * k.face_diagonal,
+                     1e3 * k.internal_diagonal) +
+         (k.volume != 0 ? fmt::format(", k_v = {:.4g} MPa", k.volume) : "") + exponents_text(k);
+}
+
 std::string springs_text(const msm::DesignResult& design) {
   if (design.springs.network()) return "of the case's file";
   const msm::BodyTerms* terms = design.springs.terms();
   if (terms && terms->boundary == msm::Boundary::whole)
     return fmt::format("every spring {:.4g} N/m", 1e3 * design.stiffness.internal_diagonal);
-  const msm::CellStiffness& k = design.stiffness;
-  const std::string exponents = k.exponents
-                                    ? fmt::format(", exponents {:.4g}, {:.4g}, {:.4g}", k.exponents->edge,
-                                                  k.exponents->face_diagonal, k.exponents->internal_diagonal)
-                                    : "";
-  if (terms) return cell_text(terms->kinds.front()) + exponents;
-  std::string text = fmt::format("k_e, k_f, k_d = {:.4g}, {:.4g}, {:.4g} N/m", 1e3 * k.edge,
-                                 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal);
-  if (k.volume != 0) text += fmt::format(", k_v = {:.4g} MPa", k.volume);
-  return text + exponents;
+  return terms ? cell_text(terms->kinds.front()) + exponents_text(design.stiffness)
+               : stiffness_text(design.stiffness);
 }
 
 Json springs_to_json(const msm::DesignResult& design) {

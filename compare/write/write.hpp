@@ -1,10 +1,11 @@
 #pragma once
 
+#include "cases/mesh/vtk_functions.hpp"
 #include "cases/scene/scene.hpp"
 #include "compare/gates/comparison.hpp"
 #include "compare/table/json.hpp"
-#include "compare/write/write_fields.hpp"
 #include "msm/design/design.hpp"
+#include "msm/spring.hpp"
 
 #include <ostream>
 #include <string>
@@ -18,7 +19,7 @@ namespace springproof::compare {
 enum class MeshTable { left_out, printed };
 
 /// Body, loads, both sides, warnings, the peer, measures and expectations, in lines of at most 100 columns.
-/// The verdict comes after it: write_verdict_text() of compare/ranking.
+/// The verdict comes after it: write_verdict_text() of compare/study.
 void write_text(std::ostream& out, const Comparison& comparison, MeshTable meshes = MeshTable::left_out);
 
 /// Whether a measure's error is the norm of a difference, of fields over the body or of courses over time; it
@@ -35,6 +36,9 @@ Json body_to_json(const cases::Scene& scene);
 /// {"force_N", "moment_N_mm", "about_mm" (null where a load follows a history), "areas_mm2": {"load[0]":
 /// ...}}
 Json loads_to_json(const cases::Scene& scene);
+
+/// A cell's stiffnesses: "k_e, k_f, k_d = 31, 47, 33 N/m, k_v = 0.02 MPa", and exponents if there are any.
+std::string stiffness_text(const msm::CellStiffness& k);
 
 /// A design's springs in a few words: "k_e, k_f, k_d = 31, 47, 33 N/m", "12 springs of 50, 6 of 50 N/m in a
 /// cell", "5 tetrahedra in a cell".
@@ -135,5 +139,74 @@ Json gates_to_json(const std::vector<Comparison>& cases);
 /// GitHub's workflow commands: "::error file=...,line=...,title=...::message" for what is not met,
 /// "::warning" for warnings.
 void write_gates_annotations(std::ostream& out, const std::vector<Comparison>& cases);
+
+/// Both models on the body's mesh at rest, so that "warp by vector" overlays them. Each side that
+/// converged has, as `fem_` and `msm_`:
+///   at nodes  displacement (mm), reaction (N);
+///   in cells  cell_volume (mm³), inverted (0 or 1), stress (Cauchy, MPa), von_mises (MPa), strain
+///             (logarithmic), strain_energy_density (N mm per mm³ at rest).
+/// Both give difference (vector, springs less finite elements, mm), error (its length, mm), relative_error
+/// (over the finite elements' largest displacement) and von_mises_difference (MPa), the case gives
+/// applied_force (N, at nodes, full load; not where a load follows a history), material (number of the cell's
+/// [[region_material]], 0: the body's own). Stress, strain and reactions are there when the solutions have
+/// fields, stress and energy when their springs belong to cells.
+///
+/// Ranks that share the answers have the nodes and cells that are here; the names are the same on every rank.
+/// Collective.
+cases::GridFields grid_fields_of(const Comparison& comparison);
+
+/// The ranks that share a comparison's answers; null: all of them is here.
+const cases::Sharing* sharing_of(const Comparison& comparison);
+
+/// The body's mesh at rest with grid_fields_of() the comparison as a VTK unstructured grid (.vtu, doubles,
+/// raw binary), for ParaView. Every array carries its unit as VTK's UNITS_LABEL; tensors have the components
+/// XX, YY, ZZ, XY, YZ, XZ. All of the answers is here: no ranks share them.
+void write_vtu(std::ostream& out, const Comparison& comparison);
+
+/// Any vectors on a mesh's nodes as a .vtu.
+void write_vtu(std::ostream& out, const cases::HexMesh& mesh, const std::vector<cases::PointField>& fields);
+
+/// Removes FOLDER/NAME_NUMBER.vtu of this number and above, of an earlier run, and the folder if nothing is
+/// left.
+void remove_numbered(const std::string& folder, const std::string& name, int first);
+
+/// The same as files: FOLDER/NAME.vtu or, where ranks share the answers, FOLDER/NAME_pieces/NAME_RANK.vtu and
+/// FOLDER/NAME.pvtu, which is written when its pieces are whole; and FOLDER/NAME_springs.vtu, the springs as
+/// lines, where has_drawn_springs(). What other numbers of ranks have left is removed. Every rank calls it.
+/// @throws InputError if a file cannot be written
+void write_fields(const std::string& folder, const Comparison& comparison);
+
+/// Springs as lines between points.
+struct SpringLines {
+  std::vector<std::array<int, 2>> ends;
+  std::vector<double> stiffness;   ///< at rest, N/mm
+  std::vector<double> rest_length; ///< mm
+
+  void add(int i, int j, const msm::Spring& spring) {
+    ends.push_back({i, j});
+    stiffness.push_back(spring.stiffness);
+    rest_length.push_back(spring.rest_length);
+  }
+};
+
+/// The lines as a VTK unstructured grid (.vtu, doubles, raw binary), with their stiffness and rest_length.
+/// @param points  at rest, mm    @param others  further fields of the points and the lines
+std::string vtu_of_lines(const std::vector<Eigen::Vector3d>& points, const SpringLines& lines,
+                         cases::GridFields others);
+
+/// Cells of a body up to which its springs are drawn: 2 million lines, 150 MB.
+constexpr std::size_t most_cells_with_springs = 150000;
+
+/// Whether the springs' side converged with springs of ours, and the body is not too large.
+bool has_drawn_springs(const Comparison& comparison);
+
+/// Springs as lines of a VTK unstructured grid (.vtu, doubles, raw binary): stretch (deformed over rest
+/// length), tension (N, below 0 when pressed), stiffness at rest (N/mm), rest_length (mm), and at points
+/// msm_displacement (mm). Springs of one law that cells share are one line; so are edges that biquadratic
+/// tetrahedra share, whose tension also follows the other edges of the tetrahedron.
+/// @param comparison    one for which has_drawn_springs() holds
+/// @param displacement  displacement of the springs, mm, on all nodes, whoever shares them
+void write_springs_vtu(std::ostream& out, const Comparison& comparison,
+                       const std::vector<Eigen::Vector3d>& displacement);
 
 } // namespace springproof::compare

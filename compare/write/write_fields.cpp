@@ -1,4 +1,4 @@
-#include "compare/write/write_fields.hpp"
+#include "compare/write/write.hpp"
 
 #include "cases/case/input_file.hpp"
 #include "cases/mesh/sharing.hpp"

@@ -5,7 +5,6 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/quote.hpp"
-#include "compare/write/write_fields.hpp"
 
 #include <algorithm>
 #include <cmath>

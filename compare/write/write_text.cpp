@@ -168,7 +168,7 @@ std::string error_text(const MeasuredValue& measure, bool is_of_difference) {
          (measure.error_percent ? "*" : "");
 }
 
-void write_table(std::ostream& out, const Comparison& comparison) {
+void write_measures_table(std::ostream& out, const Comparison& comparison) {
   const std::vector<MeasuredValue>& measures = comparison.measures;
   const auto& peer = comparison.answers.peer;
   const bool has_limits = std::any_of(measures.begin(), measures.end(),
@@ -182,12 +182,11 @@ void write_table(std::ostream& out, const Comparison& comparison) {
                 {"fem_error", number(m.fem_error_percent, is_of_difference ? "{:.2f}*" : "{:+.2f}")}});
     return row;
   });
-  Columns columns{{"measure", "name"}, {"unit"}, {"fem", "", "{:.6g}"}, {"springs", "msm", "{:.6g}"}};
-  if (has_limits) columns.push_back({"fem's limit", "limit"});
-  columns.push_back({"error %", "error"});
-  if (has_limits) columns.push_back({"fem's error %", "fem_error"});
+  Columns columns =
+      columns_of(std::string("measure=name unit fem{:.6g} springs=msm{:.6g} ") +
+                 (has_limits ? "fem's~limit=limit error~%=error fem's~error~%=fem_error" : "error~%=error"));
   if (peer) columns.push_back({peer->program, "peer", "{:.6g}"});
-  TextTable(columns, rows).write(out);
+  write_table(out, columns, rows);
 }
 
 /// Tells why errors are against the same mesh, once where all measures have the same reason.
@@ -214,7 +213,7 @@ void write_missing_values(std::ostream& out, const MeasuredValue& m) {
 /// finite elements themselves. Then what the errors are against, and why values are missing.
 void write_measures_text(std::ostream& out, const Comparison& comparison) {
   if (comparison.measures.empty()) return;
-  write_table(out, comparison);
+  write_measures_table(out, comparison);
   if (std::any_of(comparison.measures.begin(), comparison.measures.end(), [&](const MeasuredValue& m) {
         return m.error_percent && is_norm(m, comparison.scene.definition);
       }))
@@ -227,20 +226,13 @@ void write_measures_text(std::ostream& out, const Comparison& comparison) {
 }
 
 /// The study on its finest meshes.
-TextTable study_table(const MeshStudy& study, std::size_t n_meshes) {
-  Columns columns{{"fem on refined meshes", "name"}};
+Columns study_columns(const MeshStudy& study, std::size_t n_meshes) {
+  std::string columns = "fem~on~refined~meshes=name";
   for (std::size_t mesh = study.refine.size() - n_meshes; mesh < study.refine.size(); ++mesh)
-    columns.push_back(
-        {fmt::format("refine {}", study.refine[mesh]), fmt::format("values.{}", mesh), "{:.6g}"});
-  columns.insert(columns.end(), {{"order", "observed_order", "{:.2f}"},
-                                 {"limit", "extrapolated", "{:.6g}"},
-                                 {"GCI %", "grid_convergence_index_percent", "{:.2g}"},
-                                 {"fem +- %", "discretisation_error", "{:.2g}"}});
-  return TextTable(columns, json_list(study.measures, [](const StudiedMeasure& measure) {
-                     Json row = studied_to_json(measure);
-                     if (measure.limit) row["discretisation_error"] = measure.discretisation_error_percent;
-                     return row;
-                   }));
+    columns += fmt::format(" refine~{}=values.{}{{:.6g}}", study.refine[mesh], mesh);
+  return columns_of(columns + " order=observed_order{:.2f} limit=extrapolated{:.6g} "
+                              "GCI~%=grid_convergence_index_percent{:.2g} "
+                              "fem~+-~%=discretisation_error{:.2g}");
 }
 
 /// Writes the finite elements' values on every mesh, with orders and error bars. In a terminal's width the
@@ -248,8 +240,13 @@ TextTable study_table(const MeshStudy& study, std::size_t n_meshes) {
 void write_mesh_study_text(std::ostream& out, const MeshStudy& study) {
   std::size_t n_meshes = study.refine.size();
   if (n_meshes < 2) return;
-  while (n_meshes > 3 && study_table(study, n_meshes).width() > screen_width) --n_meshes;
-  study_table(study, n_meshes).write(out);
+  const Json rows = json_list(study.measures, [](const StudiedMeasure& measure) {
+    Json row = studied_to_json(measure);
+    if (measure.limit) row["discretisation_error"] = measure.discretisation_error_percent;
+    return row;
+  });
+  while (n_meshes > 3 && table_width(study_columns(study, n_meshes), rows) > screen_width) --n_meshes;
+  write_table(out, study_columns(study, n_meshes), rows);
   if (n_meshes < study.refine.size())
     write_wrapped(out, "  values on coarser meshes: in --json, and in results.json of --out", 4);
   for (const StudiedMeasure& measure : study.measures)
@@ -268,15 +265,11 @@ void write_landmarks_text(std::ostream& out, const Comparison& comparison) {
     (row["reason"] == "" || is_to_equilibrium ? rows : missing).push_back(row);
     has_equilibrium = has_equilibrium || is_to_equilibrium;
   }
-  Columns columns{{"landmark, mm", "name"},
-                  {"springs to fem", "mean", "{:.4g}"},
-                  {"deviation", "", "{:.4g}"},
-                  {"rays", "n_rays"},
-                  {"fem moved", "moved", "{:.4g}"}};
+  std::string columns = "landmark,~mm=name springs~to~fem=mean{:.4g} deviation{:.4g} rays=n_rays "
+                        "fem~moved=moved{:.4g}";
   if (has_equilibrium)
-    columns.insert(columns.end(), {{"to their equilibrium", "to_equilibrium.mean", "{:.4g}"},
-                                   {"deviation", "to_equilibrium.deviation", "{:.4g}"}});
-  TextTable(columns, rows).write(out);
+    columns += " to~their~equilibrium=to_equilibrium.mean{:.4g} deviation=to_equilibrium.deviation{:.4g}";
+  write_table(out, columns_of(columns), rows);
   for (const Json& row : missing)
     write_wrapped(
         out, fmt::format("  {}: {}", row["name"].get<std::string>(), row["reason"].get<std::string>()), 4);

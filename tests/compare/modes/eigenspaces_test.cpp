@@ -1,33 +1,18 @@
-#include "compare/modes/eigenspaces.hpp"
+#include "compare/modes/modes.hpp"
 
 #include "compare/solve/springs.hpp"
+#include "compare/thesis/published.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "tests/support/largest.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <catch2/catch.hpp>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 using namespace springproof;
 
 namespace {
-
-// Rows of a published table, the header left out.
-std::vector<std::vector<std::string>> published(const std::string& file_name) {
-  std::ifstream file(SPRINGPROOF_SOURCE_DIR "/cases/published/" + file_name);
-  std::vector<std::vector<std::string>> rows;
-  std::string line, cell;
-  std::getline(file, line);
-  while (std::getline(file, line)) {
-    std::istringstream cells(line);
-    rows.emplace_back();
-    while (std::getline(cells, cell, ',')) rows.back().push_back(cell);
-  }
-  return rows;
-}
 
 struct Matrices {
   msm::CellMatrix fem, msm;
@@ -63,29 +48,33 @@ void rotate_inside_spaces(compare::Spectrum& spectrum, std::mt19937& random) {
 
 TEST_CASE("Table 4.2: eigenvalues and multiplicities of both cells at nu = 0", "[verification]") {
   const compare::EigenspaceAnalysis analysis = analyse(0);
-  std::size_t n_fem = 0, n_msm = 0;
-  for (const auto& row : published("eigenvalues.csv")) { // table, nu, model, index, eigenvalue, multiplicity
-    const bool fem = row[2] == "fem";
-    const std::size_t index = fem ? n_fem++ : n_msm++;
-    const auto& spaces = fem ? analysis.fem_spaces : analysis.msm_spaces;
+  std::size_t n_spaces = 0;
+  for (const compare::PublishedFigure& figure : compare::published_figures()) {
+    if (figure.table != "4.2") continue;
+    CAPTURE(figure.measure);
+    const std::size_t index = std::stoul(figure.measure.substr(figure.measure.rfind('_') + 1)) - 1;
+    const auto& spaces = figure.measure.rfind("fem", 0) == 0 ? analysis.fem_spaces : analysis.msm_spaces;
     REQUIRE(index < spaces.size());
-    CAPTURE(row[2], index);
-    // Two printed digits, and the thesis computed from stiffnesses rounded to three: half a unit of each.
-    CHECK(spaces[index].eigenvalue == Approx(std::stod(row[4])).margin(0.0075));
-    CHECK(spaces[index].dimension == std::stoi(row[5]));
+    if (figure.measure.find("multiplicity") != std::string::npos) {
+      ++n_spaces;
+      CHECK(spaces[index].dimension == figure.value);
+    } else { // two printed digits, and the thesis computed from stiffnesses rounded to three: half a unit of each
+      CHECK(spaces[index].eigenvalue == Approx(figure.value).margin(0.0075));
+    }
   }
-  CHECK(n_fem == analysis.fem_spaces.size());
-  CHECK(n_msm == analysis.msm_spaces.size());
+  CHECK(n_spaces == analysis.fem_spaces.size() + analysis.msm_spaces.size());
 }
 
 TEST_CASE("Table 4.3: all eleven h to the printed digit", "[verification]") {
-  const auto rows = published("h_metric.csv"); // table, nu, h
-  REQUIRE(rows.size() == 11);
-  for (const auto& row : rows) {
-    CAPTURE(row[1]);
-    CHECK(analyse(std::stod(row[1])).h ==
-          Approx(std::stod(row[2])).margin(0.005 + 1e-12)); // half of the last digit
+  int n = 0;
+  for (const compare::PublishedFigure& figure : compare::published_figures()) {
+    if (figure.table != "4.3") continue;
+    ++n;
+    CAPTURE(figure.poissons_ratio);
+    CHECK(analyse(figure.poissons_ratio).h ==
+          Approx(figure.value).margin(0.005 + 1e-12)); // half of the last digit
   }
+  CHECK(n == 11);
 }
 
 TEST_CASE("rotating the basis inside degenerate spaces changes nothing", "[verification]") {

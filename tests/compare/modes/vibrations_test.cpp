@@ -1,4 +1,4 @@
-#include "compare/modes/eigenspaces.hpp"
+#include "compare/modes/modes.hpp"
 
 #include "compare/solve/springs.hpp"
 #include "fem_reference/element_stiffness.hpp"

@@ -3,7 +3,7 @@
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/springs.hpp"
-#include "compare/study/verdict.hpp"
+#include "compare/study/write_study.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,37 +1,14 @@
 #include "compare/solve/springs.hpp"
 
 #include "cases/case/readers.hpp"
+#include "compare/thesis/published.hpp"
 #include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>
-#include <fstream>
-#include <sstream>
 
 using namespace springproof;
 
 namespace {
-
-struct PublishedRow {
-  double poissons_ratio, edge, face_diagonal, internal_diagonal;
-};
-
-// Columns: table, poissons_ratio, edge, face_diagonal, internal_diagonal.
-std::vector<PublishedRow> published_pseudo_stiffness() {
-  std::ifstream file(SPRINGPROOF_SOURCE_DIR "/cases/published/pseudo_stiffness.csv");
-  std::vector<PublishedRow> rows;
-  std::string line;
-  std::getline(file, line);
-  while (std::getline(file, line)) {
-    std::istringstream text(line);
-    PublishedRow row{};
-    char comma = 0;
-    double table = 0;
-    text >> table >> comma >> row.poissons_ratio >> comma >> row.edge >> comma >> row.face_diagonal >>
-        comma >> row.internal_diagonal;
-    rows.push_back(row);
-  }
-  return rows;
-}
 
 msm::DesignResult linear_design(double youngs_modulus, double poissons_ratio, double edge) {
   cases::Msm options;
@@ -43,18 +20,21 @@ msm::DesignResult linear_design(double youngs_modulus, double poissons_ratio, do
 } // namespace
 
 TEST_CASE("the linear method regenerates all 33 entries of Table 4.1", "[verification]") {
-  const auto rows = published_pseudo_stiffness();
-  REQUIRE(rows.size() == 11);
+  int n = 0;
   const double tolerance =
       0.0015; // three printed digits, and two entries whose last digit was rounded otherwise
-  for (const PublishedRow& row : rows) {
-    CAPTURE(row.poissons_ratio);
+  for (const compare::PublishedFigure& figure : compare::published_figures()) {
+    if (figure.table != "4.1") continue;
+    ++n;
+    CAPTURE(figure.poissons_ratio, figure.measure);
     const msm::CellStiffness pseudo =
-        msm::pseudo_stiffness(linear_design(1, row.poissons_ratio, 2).stiffness, 1, 2);
-    CHECK(pseudo.edge == Approx(row.edge).margin(tolerance));
-    CHECK(pseudo.face_diagonal == Approx(row.face_diagonal).margin(tolerance));
-    CHECK(pseudo.internal_diagonal == Approx(row.internal_diagonal).margin(tolerance));
+        msm::pseudo_stiffness(linear_design(1, figure.poissons_ratio, 2).stiffness, 1, 2);
+    const double computed = figure.measure == "edge"            ? pseudo.edge
+                            : figure.measure == "face_diagonal" ? pseudo.face_diagonal
+                                                                : pseudo.internal_diagonal;
+    CHECK(computed == Approx(figure.value).margin(tolerance));
   }
+  CHECK(n == 3 * 11);
 }
 
 TEST_CASE("pseudo-stiffnesses depend neither on Young's modulus nor on the edge", "[verification]") {

@@ -1,9 +1,8 @@
-#include "compare/study/verdict.hpp"
+#include "compare/study/write_study.hpp"
 
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/provenance/machine.hpp"
-#include "compare/study/write_ranking.hpp"
 #include "compare/table/table.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/unwrapped.hpp"
@@ -74,7 +73,7 @@ TEST_CASE("a ranking's text ends with its advice, in lines of 100 columns, whate
   compare::write_ranking_text(out, ranking);
   std::istringstream in(out.str());
   for (std::string line; std::getline(in, line);)
-    CHECK(compare::printed_width(line) <= compare::screen_width);
+    CHECK(compare::n_characters(line) <= compare::screen_width);
   CHECK_THAT(unwrapped(out.str()), Catch::EndsWith(" " + compare::advice_of(ranking) + " "));
 }
 

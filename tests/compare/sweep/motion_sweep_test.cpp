@@ -3,7 +3,6 @@
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "compare/sweep/analysis.hpp"
 #include "msm/design/design.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -91,6 +90,7 @@ SweepRow elements(double step, double seconds, std::optional<double> error, int 
 
 Sweep swept(const std::vector<SweepRow>& rows, double uncertainty = 0.5) {
   Sweep sweep;
+  sweep.definition.dynamics.emplace();
   sweep.reference.emplace().field.uncertainty_percent = uncertainty;
   sweep.rows = rows;
   return sweep;

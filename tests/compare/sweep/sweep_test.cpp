@@ -3,8 +3,6 @@
 #include "cases/case/read_case.hpp"
 #include "compare/solve/process_pool.hpp"
 #include "compare/solve/solvers.hpp"
-#include "compare/sweep/analysis.hpp"
-#include "compare/sweep/instructions.hpp"
 #include "compare/sweep/write_sweep.hpp"
 
 #include <algorithm>

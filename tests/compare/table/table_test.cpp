@@ -26,7 +26,7 @@ TEST_CASE("a text is broken at blanks before column 100, and loses none of its w
   std::istringstream in(lines);
   int n_lines = 0;
   for (std::string line; std::getline(in, line); ++n_lines) {
-    CHECK(compare::printed_width(line) <= compare::screen_width);
+    CHECK(compare::n_characters(line) <= compare::screen_width);
     CHECK(line.find_first_not_of(' ') == (n_lines == 0 ? 2u : 4u));
   }
   CHECK(n_lines > 3);
@@ -39,20 +39,20 @@ TEST_CASE("a word longer than a line stands whole, on a line of its own") {
 }
 
 TEST_CASE("an accented letter is one column, and a line of a stranger's text gives a terminal no command") {
-  CHECK(compare::printed_width("Köhler") == 6);
+  CHECK(compare::n_characters("Köhler") == 6);
   CHECK(wrapped("a\x1b[2Jb\nc", 0) == "a\\x1b[2Jb\\nc\n");
 }
 
 TEST_CASE("a table's columns are as wide as their widest text, numbers end at the right") {
-  compare::TextTable table({{"measure"}, {"mm"}, {"%"}});
-  table.add({"u", "1.25", "-"});
-  table.add({"a long name", "3", "+12.5"});
+  const compare::Columns columns{{"measure"}, {"mm"}, {"%"}};
+  const compare::Json rows{{{"measure", "u"}, {"mm", 1.25}, {"%", nullptr}},
+                           {{"measure", "a long name"}, {"mm", 3}, {"%", "+12.5"}}};
   std::ostringstream out;
-  table.write(out);
+  write_table(out, columns, rows);
   CHECK(out.str() == "  measure        mm      %\n"
                      "  u            1.25      -\n"
                      "  a long name     3  +12.5\n");
-  CHECK(table.width() == 26);
+  CHECK(table_width(columns, rows) == 26);
 }
 
 TEST_CASE("one row makes JSON, CSV and text, and a column finds its value by a key with dots") {
@@ -72,9 +72,8 @@ TEST_CASE("one row makes JSON, CSV and text, and a column finds its value by a k
                           "error=errors.a.b stable notes"),
       rows, 3);
   CHECK(csv.str() == "name,cells_x,first_s,again_s,error,stable,notes\nu,2,0.123,,-1.5,1,one two\n");
-  compare::TextTable(
-      {{"name"}, {"s", "seconds.first.median", "{:.2f}"}, {"again", "seconds.again"}, {"stable"}}, rows)
-      .write(text);
+  compare::write_table(
+      text, {{"name"}, {"s", "seconds.first.median", "{:.2f}"}, {"again", "seconds.again"}, {"stable"}}, rows);
   CHECK(text.str() == "  name     s  again  stable\n"
                       "  u     0.12      -     yes\n");
 }

@@ -2,7 +2,6 @@
 
 #include "compare/provenance/print.hpp"
 #include "compare/thesis/figures.hpp"
-#include "compare/thesis/layout.hpp"
 #include "tests/support/screen.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -107,14 +106,9 @@ TEST_CASE("a failed solve is a failed cell, counted apart, with its reason in sh
   for (std::size_t e : {2, 3}) results.entries[e].published.measure += std::to_string(e); // rows of their own
   results.entries[2].computed[0].reason = "springs: no equilibrium " + std::string(200, '.');
   results.entries[3].computed[1].reason = "finite elements: diverged";
-  const auto counts = compare::count_entries(results.entries);
-  CHECK(counts.n == 4);
-  CHECK(counts.n_reproduced == 1); // the tolerance of errors is 1 point
-  CHECK(counts.n_not_reproduced() == 1);
-  CHECK(counts.n_failed == 2);
   CHECK(compare::cell_text(results.entries[2]) == "failed");
   const std::string text = text_of(results);
-  CHECK_THAT(text, Contains("4 published values: 1 reproduced, 1 not, 2 failed"));
+  CHECK_THAT(text, Contains("4 published values: 1 reproduced, 1 not, 2 failed")); // within 1 point
   CHECK_THAT(text, Contains("failed: 4.6 shear alpha_22") && Contains("failed: 4.6 shear alpha_23"));
   CHECK_THAT(text, Contains("springs: no") && !Contains(std::string(200, '.')));
   CHECK_THAT(text, Contains("errors, beta_1 aside: 1 of 4 within 1 point"));

@@ -3,7 +3,6 @@
 #include "cases/case/error.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/write/gnuplot.hpp"
-#include "compare/write/write_fields.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/unwrapped.hpp"
 

@@ -1,8 +1,8 @@
-#include "compare/study/verdict.hpp"
+#include "compare/study/write_study.hpp"
 
 #include "cases/case/names.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/provenance/print.hpp"
+#include "compare/provenance/whole_file.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/write.hpp"
 
@@ -14,6 +14,16 @@
 namespace springproof::compare {
 
 namespace {
+
+/// "2.31", or "-" without a value.
+std::string two_digits(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2f}", *value) : "-";
+}
+
+/// "2.31 +- 0.4": the worst error with what the reference's uncertainty leaves of it.
+std::string worst_text(const Trial& ranked) {
+  return two_digits(ranked.worst) + (ranked.worst_bar ? fmt::format(" +- {:.2g}", *ranked.worst_bar) : "");
+}
 
 /// The finite elements' own error on the mesh of the springs: the largest that there may be, of the measures
 /// whose limit is known. What has no limit is unknown, whatever another measure's error.
@@ -119,15 +129,56 @@ std::string missed_text(const std::vector<Gate>& gates) {
   return fmt::format(" {} of {} expectations {} not met.", n, gates.size(), n == 1 ? "is" : "are");
 }
 
+/// What the errors are against.
+std::string reference_text(const Ranking& ranking) {
+  const bool has_limit = std::any_of(ranking.designs.begin(), ranking.designs.end(),
+                                     [](const Trial& r) { return r.worst_bar.has_value(); });
+  return fmt::format("{}{} {}{}", has_limit ? "the limit of " : "",
+                     cases::name_of(ranking.resolved.formulation), cases::name_of(ranking.resolved.element),
+                     has_limit ? "" : " on the same mesh");
+}
+
+Json trial_to_json(const Trial& trial) {
+  Json errors = Json::object();
+  for (const MeasuredValue& measured : trial.measures) errors[measured.name] = measured.error_percent;
+  const auto if_solved = [&](const auto& value) {
+    return trial.refusal.empty() ? Json(value) : Json(nullptr);
+  };
+  return {{"design", trial.name},
+          {"refused", text_or_null(trial.refusal)},
+          {"failed", text_or_null(trial.failure)},
+          {"worst_error_percent", trial.worst},
+          {"worst_error_uncertainty_percent", trial.worst_bar},
+          {"worst_at", text_or_null(trial.worst_at)},
+          {"worst_volume_error_percent", trial.worst_volume},
+          {"stable", if_solved(trial.is_stable)},
+          {"has_moduli", trial.misfit ? Json(trial.has_moduli()) : Json(nullptr)},
+          {"milliseconds", if_solved(trial.milliseconds)},
+          {"milliseconds_a_step", trial.milliseconds_a_step},
+          {"springs", text_or_null(trial.springs)},
+          {"errors_percent", errors}};
+}
+
+void write_designs_table(std::ostream& out, const Ranking& ranking) {
+  const Trial* best = ranking.recommended();
+  const bool moves = std::any_of(ranking.designs.begin(), ranking.designs.end(),
+                                 [](const Trial& r) { return r.milliseconds_a_step.has_value(); });
+  Json rows = Json::array();
+  for (const Trial& trial : ranking.designs) {
+    if (!trial.worst) continue;
+    rows.push_back(trial_to_json(trial));
+    rows.back()["  design"] = (&trial == best ? "> " : "  ") + trial.name;
+    rows.back()["worst %"] = worst_text(trial);
+  }
+  const std::string columns =
+      "~~design worst~% measure=worst_at{:<} volume~%=worst_volume_error_percent{:.2f} "
+      "stable moduli=has_moduli ";
+  write_table(out,
+              columns_of(columns + (moves ? "ms~a~step=milliseconds_a_step{:.1f}" : "ms=milliseconds{:.1f}")),
+              rows);
+}
+
 } // namespace
-
-std::string two_digits(const std::optional<double>& value) {
-  return value ? fmt::format("{:.2f}", *value) : "-";
-}
-
-std::string worst_text(const Trial& ranked) {
-  return two_digits(ranked.worst) + (ranked.worst_bar ? fmt::format(" +- {:.2g}", *ranked.worst_bar) : "");
-}
 
 std::string advice_of(const Ranking& ranking) {
   if (!ranking.fem.converged())
@@ -193,7 +244,7 @@ void write_next_commands(std::ostream& out, const std::vector<NextCommand>& next
   if (!next.empty()) print(out, "What to type next:\n");
   for (const auto& [line, what] : next) {
     const std::string text = "  " + line, comment = "# " + what;
-    if (printed_width(text) + 3 + printed_width(comment) <= screen_width)
+    if (n_characters(text) + 3 + n_characters(comment) <= screen_width)
       print(out, "{}   {}\n", text, comment);
     else
       print(out, "  {}\n{}\n", comment, text);
@@ -209,6 +260,70 @@ void write_verdict_text(std::ostream& out, const Comparison& comparison,
   if (const std::string time = time_of(comparison); !time.empty()) text += " " + time;
   write_wrapped(out, text, 2);
   write_next_commands(out, next);
+}
+
+void write_ranking_text(std::ostream& out, const Ranking& ranking) {
+  write_wrapped(
+      out,
+      fmt::format("{}: designs by their worst error against {}", ranking.case_name, reference_text(ranking)),
+      2);
+  if (ranking.fem.converged()) write_designs_table(out, ranking);
+  for (const Trial& ranked : ranking.designs)
+    if (!ranked.worst)
+      write_wrapped(out,
+                    fmt::format("    {} {}: {}", ranked.name, ranked.refusal.empty() ? "failed" : "refused",
+                                ranked.refusal.empty() ? ranked.failure : ranked.refusal),
+                    6);
+  if (ranking.recommended())
+    write_wrapped(out, "  >: recommended; moduli: whether the lattice has those of the material", 4);
+  write_expectations_text(out, ranking.gates);
+  write_wrapped(out, advice_of(ranking), 2);
+}
+
+void write_ranking_csv(std::ostream& out, const std::vector<Ranking>& rankings) {
+  Json rows = Json::array();
+  for (const Ranking& ranking : rankings) {
+    const Trial* best = ranking.recommended();
+    for (const Trial& trial : ranking.designs) {
+      rows.push_back(trial_to_json(trial));
+      rows.back()["case"] = ranking.case_name;
+      rows.back()["recommended"] = &trial == best;
+    }
+  }
+  const std::string of_errors =
+      "worst_error_percent worst_error_uncertainty_percent worst_at worst_volume_error_percent ";
+  write_csv(out,
+            columns_of("case design recommended " + of_errors +
+                       "stable has_moduli milliseconds milliseconds_a_step springs refused failed"),
+            rows);
+}
+
+Json ranking_to_json(const Ranking& ranking) {
+  const Trial* best = ranking.recommended();
+  return {{"name", ranking.case_name},
+          {"fem",
+           {{"formulation", cases::name_of(ranking.resolved.formulation)},
+            {"element", cases::name_of(ranking.resolved.element)},
+            {"status", cases::name_of(ranking.fem.solution.status)},
+            {"message", ranking.fem.solution.message},
+            {"milliseconds", 1e3 * ranking.fem.seconds()}}},
+          {"reference", reference_text(ranking)},
+          {"designs", json_list(ranking.designs, trial_to_json)},
+          {"recommended", best ? Json(best->name) : Json(nullptr)},
+          {"advice", advice_of(ranking)},
+          {"expectations", expectations_to_json(ranking.gates)}};
+}
+
+Json rankings_to_json(const std::vector<Ranking>& rankings) {
+  return {{"schema", 1}, {"cases", json_list(rankings, ranking_to_json)}};
+}
+
+void write_rankings(const std::string& folder, const std::vector<Ranking>& rankings) {
+  write_file(folder + "/ranking.txt", [&](std::ostream& out) {
+    for (const Ranking& ranking : rankings) write_ranking_text(out, ranking);
+  });
+  write_file(folder + "/ranking.csv", [&](std::ostream& out) { write_ranking_csv(out, rankings); });
+  write_json_file(folder + "/ranking.json", rankings_to_json(rankings));
 }
 
 } // namespace springproof::compare
