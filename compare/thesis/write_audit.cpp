@@ -91,14 +91,12 @@ std::string worst_and_mean(const LoadSetErrors& errors) {
 
 std::string stiffness(const std::optional<msm::CellStiffness>& k) {
   if (!k) return fmt::format("{:>35}", "");
-  return fmt::format("{:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f}", k->edge, k->face_diagonal, k->internal_diagonal,
-                     k->volume);
+  return fmt::format("{:>8.4f} {:>8.4f}", fmt::join(k->springs(), " "), k->volume);
 }
 
 std::string exponents(const msm::CellStiffness& k) {
   if (!k.exponents) return "";
-  return fmt::format(", exponents {:.3f}, {:.3f}, {:.3f}", k.exponents->edge, k.exponents->face_diagonal,
-                     k.exponents->internal_diagonal);
+  return fmt::format(", exponents {:.3f}", fmt::join(k.exponents->by_kind, ", "));
 }
 
 /// A line that a reader with E and nu in hand can use as it stands.

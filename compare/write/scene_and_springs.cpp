@@ -155,13 +155,10 @@ std::string springs_text(const msm::DesignResult& design) {
   if (terms && terms->boundary == msm::Boundary::whole)
     return fmt::format("every spring {:.4g} N/m", 1e3 * design.stiffness.internal_diagonal);
   const msm::CellStiffness& k = design.stiffness;
-  const std::string exponents = k.exponents
-                                    ? fmt::format(", exponents {:.4g}, {:.4g}, {:.4g}", k.exponents->edge,
-                                                  k.exponents->face_diagonal, k.exponents->internal_diagonal)
-                                    : "";
+  const std::string exponents =
+      k.exponents ? fmt::format(", exponents {:.4g}", fmt::join(k.exponents->by_kind, ", ")) : "";
   if (terms) return cell_text(terms->kinds.front()) + exponents;
-  std::string text = fmt::format("k_e, k_f, k_d = {:.4g}, {:.4g}, {:.4g} N/m", 1e3 * k.edge,
-                                 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal);
+  std::string text = fmt::format("k_e, k_f, k_d = {:.4g} N/m", fmt::join(scaled(k, 1e3).springs(), ", "));
   if (k.volume != 0) text += fmt::format(", k_v = {:.4g} MPa", k.volume);
   return text + exponents;
 }
@@ -169,10 +166,8 @@ std::string springs_text(const msm::DesignResult& design) {
 Json springs_to_json(const msm::DesignResult& design) {
   const msm::CellStiffness& k = design.stiffness;
   Json springs{{"stiffness_N_per_m", nullptr}, {"volume_stiffness_MPa", k.volume}};
-  if (design.springs.cells())
-    springs["stiffness_N_per_m"] = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
-  if (k.exponents)
-    springs["exponents"] = {k.exponents->edge, k.exponents->face_diagonal, k.exponents->internal_diagonal};
+  if (design.springs.cells()) springs["stiffness_N_per_m"] = scaled(k, 1e3).springs();
+  if (k.exponents) springs["exponents"] = k.exponents->by_kind;
   if (const msm::BodyTerms* terms = design.springs.terms()) {
     springs["volume_stiffness_MPa"] = terms->kinds.front().volume;
     springs["cell"] = cell_to_json(*terms);
