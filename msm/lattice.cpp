@@ -2,7 +2,7 @@
 
 #include "msm/tangent.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <tuple>
 
@@ -11,6 +11,7 @@ namespace springproof::msm {
 namespace {
 
 using cases::index;
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// Calls action(a, b, c, d) for every vertex a of every face; b, c, d follow it around the face.
@@ -19,6 +20,22 @@ void for_each_corner(const Action& action) {
   for (const auto& face : cases::cell_faces) {
     const auto vertex = [&](std::size_t i) { return static_cast<std::size_t>(face[i % 4]); };
     for (std::size_t i = 0; i < 4; ++i) action(vertex(i), vertex(i + 1), vertex(i + 2), vertex(i + 3));
+  }
+}
+
+Matrix3d edges_from_first(const TetrahedronPositions& x) {
+  Matrix3d edges;
+  for (int c = 0; c < 3; ++c) edges.col(c) = x[static_cast<std::size_t>(c + 1)] - x[0];
+  return edges;
+}
+
+/// Calls action(e, a, b, x_b - x_a) for every edge e = (a, b).
+template<class Action>
+void for_each_edge(const TetrahedronPositions& x, const Action& action) {
+  for (std::size_t e = 0; e < tetrahedron_edges.size(); ++e) {
+    const auto [a, b] = tetrahedron_edges[e];
+    action(static_cast<Eigen::Index>(e), a, b,
+           Vector3d(x[static_cast<std::size_t>(b)] - x[static_cast<std::size_t>(a)]));
   }
 }
 
@@ -40,11 +57,11 @@ double trilinear_volume(const CellPositions& x) {
   return triple / 3;
 }
 
-std::array<std::array<Eigen::Matrix3d, 8>, 8> trilinear_volume_second_derivative(const CellPositions& x) {
-  std::array<std::array<Eigen::Matrix3d, 8>, 8> blocks;
-  for (auto& row : blocks) row.fill(Eigen::Matrix3d::Zero());
-  const auto add = [](Eigen::Matrix3d& block, const Vector3d& w) { // T_abc x_c
-    Eigen::Matrix3d cross;
+std::array<std::array<Matrix3d, 8>, 8> trilinear_volume_second_derivative(const CellPositions& x) {
+  std::array<std::array<Matrix3d, 8>, 8> blocks;
+  for (auto& row : blocks) row.fill(Matrix3d::Zero());
+  const auto add = [](Matrix3d& block, const Vector3d& w) { // T_abc x_c
+    Matrix3d cross;
     cross << 0, w.z(), -w.y(), -w.z(), 0, w.x(), w.y(), -w.x(), 0;
     block += cross;
   };
@@ -56,113 +73,178 @@ std::array<std::array<Eigen::Matrix3d, 8>, 8> trilinear_volume_second_derivative
   return blocks;
 }
 
-CellPositions cell_positions(const VolumeCell& cell, const Points& positions) {
-  CellPositions x;
-  for (std::size_t v = 0; v < 8; ++v) x[v] = positions[index(cell.nodes[v])];
-  return x;
+double VolumeCell::small_motion_energy(const CellPositions& rest, const CellPositions& motion) const {
+  const auto gradient = trilinear_volume_gradient(rest);
+  double change = 0;
+  for (std::size_t v = 0; v < 8; ++v) change += gradient[v].dot(motion[v]);
+  return 0.5 * stiffness / rest_volume * change * change;
 }
 
-VolumeLaw VolumeCell::law(const CellPositions& x) const {
-  return volume_law(trilinear_volume(x) / rest_volume, is_logarithmic);
+CellPositions VolumeCell::forces(const CellPositions& x) const {
+  const double pressure = stiffness * law(x).pressure;
+  CellPositions all = trilinear_volume_gradient(x);
+  for (Vector3d& force : all) force *= -pressure;
+  return all;
 }
 
-Tetrahedron make_tetrahedron(const std::array<int, 4>& nodes, const Points& rest, double lambda, double mu) {
-  Tetrahedron made{nodes, {}, {}};
-  const TetrahedronPositions x = tetrahedron_positions(made, rest);
-  made.stiffness = biquadratic_stiffness(x, lambda, mu);
+double tetrahedron_volume(const TetrahedronPositions& x) {
+  return edges_from_first(x).determinant() / 6;
+}
+
+EdgeMatrix biquadratic_stiffness(const TetrahedronPositions& rest, double lambda, double mu) {
+  const Matrix3d inverse = edges_from_first(rest).inverse(); // row c: the gradient of N_(c+1)
+  Eigen::Matrix<double, 3, 4> gradient;
+  gradient.rightCols<3>() = inverse.transpose();
+  gradient.col(0) = -gradient.rightCols<3>().rowwise().sum();
+  std::array<Matrix3d, 6> shapes;
   for (std::size_t e = 0; e < 6; ++e) {
     const auto [a, b] = tetrahedron_edges[e];
-    made.rest_lengths[static_cast<Eigen::Index>(e)] = (x[index(b)] - x[index(a)]).norm();
+    const Matrix3d product = gradient.col(a) * gradient.col(b).transpose();
+    shapes[e] = 0.5 * (product + product.transpose());
   }
+  const double volume = std::abs(tetrahedron_volume(rest));
+  EdgeMatrix stiffness;
+  for (std::size_t e = 0; e < 6; ++e)
+    for (std::size_t f = 0; f < 6; ++f)
+      stiffness(static_cast<Eigen::Index>(e), static_cast<Eigen::Index>(f)) =
+          volume / 4 *
+          (2 * mu * shapes[e].cwiseProduct(shapes[f]).sum() + lambda * shapes[e].trace() * shapes[f].trace());
+  return stiffness;
+}
+
+Tetrahedron make_tetrahedron(const std::array<int, 4>& nodes, const TetrahedronPositions& rest, double lambda,
+                             double mu) {
+  Tetrahedron made{nodes, biquadratic_stiffness(rest, lambda, mu), {}};
+  for_each_edge(rest, [&](Eigen::Index e, int, int, const Vector3d& d) { made.rest_lengths[e] = d.norm(); });
   return made;
 }
 
-TetrahedronPositions tetrahedron_positions(const Tetrahedron& tetrahedron, const Points& positions) {
-  TetrahedronPositions x;
-  for (std::size_t v = 0; v < 4; ++v) x[v] = positions[index(tetrahedron.nodes[v])];
-  return x;
+EdgeValues Tetrahedron::squared_length_changes(const TetrahedronPositions& x) const {
+  EdgeValues changes;
+  for_each_edge(x, [&](Eigen::Index e, int, int, const Vector3d& d) {
+    const double length = d.norm(); // a difference of squares would lose the digits of small changes
+    changes[e] = (length - rest_lengths[e]) * (length + rest_lengths[e]);
+  });
+  return changes;
+}
+
+EdgeValues Tetrahedron::tensions(const TetrahedronPositions& x) const {
+  EdgeValues all = 2 * stiffness * squared_length_changes(x);
+  for_each_edge(x, [&](Eigen::Index e, int, int, const Vector3d& d) { all[e] *= d.norm(); });
+  return all;
+}
+
+double Tetrahedron::energy(const TetrahedronPositions& x) const {
+  const EdgeValues changes = squared_length_changes(x);
+  return 0.5 * changes.dot(stiffness * changes);
+}
+
+double Tetrahedron::small_motion_energy(const TetrahedronPositions& rest,
+                                        const TetrahedronPositions& motion) const {
+  EdgeValues changes; // changes of squared lengths, to first order
+  for_each_edge(rest, [&](Eigen::Index e, int a, int b, const Vector3d& d) {
+    changes[e] = 2 * d.dot(motion[static_cast<std::size_t>(b)] - motion[static_cast<std::size_t>(a)]);
+  });
+  return 0.5 * changes.dot(stiffness * changes);
+}
+
+TetrahedronPositions Tetrahedron::forces(const TetrahedronPositions& x) const {
+  const EdgeValues tension = stiffness * squared_length_changes(x);
+  TetrahedronPositions all;
+  all.fill(Vector3d::Zero());
+  for_each_edge(x, [&](Eigen::Index e, int a, int b, const Vector3d& d) {
+    all[static_cast<std::size_t>(a)] += 2 * tension[e] * d; // dDelta/dx_b = 2 d
+    all[static_cast<std::size_t>(b)] -= 2 * tension[e] * d;
+  });
+  return all;
+}
+
+TetrahedronMatrix Tetrahedron::tangent_matrix(const TetrahedronPositions& x, TransverseTerm term) const {
+  const EdgeValues tension = stiffness * squared_length_changes(x);
+  Eigen::Matrix<double, 12, 6> gradients = Eigen::Matrix<double, 12, 6>::Zero(); // gradients of Delta_e
+  TetrahedronMatrix tangent = TetrahedronMatrix::Zero();
+  for_each_edge(x, [&](Eigen::Index e, int a, int b, const Vector3d& d) {
+    gradients.block<3, 1>(3 * a, e) = -2 * d;
+    gradients.block<3, 1>(3 * b, e) = 2 * d;
+    if (term == TransverseTerm::clamped && tension[e] < 0) return;
+    const Matrix3d geometric = 2 * tension[e] * Matrix3d::Identity();
+    tangent.block<3, 3>(3 * a, 3 * a) += geometric;
+    tangent.block<3, 3>(3 * b, 3 * b) += geometric;
+    tangent.block<3, 3>(3 * a, 3 * b) -= geometric;
+    tangent.block<3, 3>(3 * b, 3 * a) -= geometric;
+  });
+  tangent += gradients * stiffness * gradients.transpose();
+  return tangent;
 }
 
 namespace {
 
-/// Returns a function for the vector from point i to point j, by positions or by displacements.
-auto between(const Points& positions) {
-  return [&](int i, int j) -> Vector3d { return positions[index(j)] - positions[index(i)]; };
-}
-auto between(const Points& rest, const Points& displacement) {
-  return [&](int i, int j) -> Vector3d {
-    return (rest[index(j)] - rest[index(i)]) + (displacement[index(j)] - displacement[index(i)]);
-  };
-}
-
-/// The vertices of a cell as seen from the first.
-template<class Between>
-CellPositions cell_shape(const VolumeCell& cell, const Between& from_to) {
-  CellPositions x;
-  for (std::size_t v = 0; v < 8; ++v) x[v] = from_to(cell.nodes[0], cell.nodes[v]);
+/// The nodes of a term as seen from the first.
+template<class Nodes>
+auto seen(const Nodes& nodes, const Points& rest, const Points& displacement) {
+  auto x = at_nodes(nodes, rest);
+  const auto moved = at_nodes(nodes, displacement);
+  for (std::size_t v = x.size(); v-- > 0;) x[v] = (x[v] - x[0]) + (moved[v] - moved[0]);
   return x;
 }
 
-template<class Between>
-TetrahedronPositions tetrahedron_shape(const Tetrahedron& tetrahedron, const Between& from_to) {
-  TetrahedronPositions x;
-  for (std::size_t v = 0; v < 4; ++v) x[v] = from_to(tetrahedron.nodes[0], tetrahedron.nodes[v]);
-  return x;
-}
-
-template<class Between>
-double energy_of(const Lattice& lattice, const Between& from_to) {
+template<class Energy>
+double sum_over_terms(const Lattice& lattice, const Energy& energy_of) {
   double sum = 0;
-  for (const Link& link : lattice.links) sum += spring_energy(from_to(link.i, link.j), link.spring);
-  for (const VolumeCell& cell : lattice.volume_cells)
-    sum += cell.stiffness * cell.rest_volume * cell.law(cell_shape(cell, from_to)).integral;
-  for (const Tetrahedron& t : lattice.tetrahedra)
-    sum += biquadratic_energy(tetrahedron_shape(t, from_to), t.rest_lengths, t.stiffness);
+  for_each_kind(lattice, [&](const auto& terms) {
+    for (const auto& term : terms) sum += energy_of(term, nodes_of(term));
+  });
   return sum;
 }
 
-template<class Between>
-Points force_of(const Lattice& lattice, const Between& from_to) {
-  Points force(lattice.rest.size(), Vector3d::Zero());
-  for (const Link& link : lattice.links) {
-    const Vector3d f = spring_force(from_to(link.i, link.j), link.spring);
-    force[index(link.i)] += f;
-    force[index(link.j)] -= f;
-  }
-  for (const VolumeCell& cell : lattice.volume_cells) {
-    const CellPositions x = cell_shape(cell, from_to);
-    const double pressure = cell.stiffness * cell.law(x).pressure;
-    const auto gradient = trilinear_volume_gradient(x);
-    for (std::size_t v = 0; v < 8; ++v) force[index(cell.nodes[v])] -= pressure * gradient[v];
-  }
-  for (const Tetrahedron& t : lattice.tetrahedra) {
-    const auto forces = biquadratic_forces(tetrahedron_shape(t, from_to), t.rest_lengths, t.stiffness);
-    for (std::size_t v = 0; v < 4; ++v) force[index(t.nodes[v])] += forces[v];
-  }
+double energy_of(const Lattice& lattice, const Points& rest, const Points& displacement) {
+  return sum_over_terms(lattice, [&](const auto& term, const auto& nodes) {
+    return term.energy(seen(nodes, rest, displacement));
+  });
+}
+
+Points force_of(const Lattice& lattice, const Points& rest, const Points& displacement) {
+  Points force(rest.size(), Vector3d::Zero());
+  for_each_kind(lattice, [&](const auto& terms) {
+    for (const auto& term : terms) {
+      const auto nodes = nodes_of(term);
+      const auto forces = term.forces(seen(nodes, rest, displacement));
+      for (std::size_t v = 0; v < nodes.size(); ++v) force[index(nodes[v])] += forces[v];
+    }
+  });
   return force;
 }
 
-/// Whether no spring's vector, cell's edge or tetrahedron's edge changes by midpoint_below of its length, and
-/// no spring is under tension at rest.
+Points no_displacement(const Lattice& lattice) {
+  return Points(lattice.rest.size(), Vector3d::Zero());
+}
+
+/// Whether a spring is under no tension at rest; other terms never are.
+bool is_relaxed(const Link& link, const Positions<2>& rest) {
+  const double length = (rest[1] - rest[0]).norm();
+  return std::abs(length - link.spring.rest_length) <= 1e-12 * length;
+}
+template<class Term, class Rest>
+bool is_relaxed(const Term&, const Rest&) {
+  return true;
+}
+
+/// Whether no edge of a term changes by midpoint_below of its length, and none is under tension at rest.
 bool is_small(const Lattice& lattice, const Points& displacement) {
-  const auto is_small_between = [&](int i, int j) {
-    return (displacement[index(j)] - displacement[index(i)]).norm() <
-           midpoint_below * (lattice.rest[index(j)] - lattice.rest[index(i)]).norm();
-  };
-  for (const Link& link : lattice.links) {
-    const double length = (lattice.rest[index(link.j)] - lattice.rest[index(link.i)]).norm();
-    if (!(std::abs(length - link.spring.rest_length) <= 1e-12 * length) || !is_small_between(link.i, link.j))
-      return false;
-  }
-  const auto are_small = [&](const auto& nodes, const auto& edges) {
-    return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
-      return is_small_between(nodes[index(edge[0])], nodes[index(edge[1])]);
-    });
-  };
-  return std::all_of(lattice.volume_cells.begin(), lattice.volume_cells.end(),
-                     [&](const VolumeCell& cell) { return are_small(cell.nodes, cases::cell_edges); }) &&
-         std::all_of(lattice.tetrahedra.begin(), lattice.tetrahedra.end(),
-                     [&](const Tetrahedron& t) { return are_small(t.nodes, tetrahedron_edges); });
+  bool are_small = true;
+  for_each_kind(lattice, [&](const auto& terms) {
+    are_small =
+        are_small && std::all_of(terms.begin(), terms.end(), [&](const auto& term) {
+          const auto rest = at_nodes(nodes_of(term), lattice.rest),
+                     moved = at_nodes(nodes_of(term), displacement);
+          return is_relaxed(term, rest) &&
+                 std::all_of(term.edges.begin(), term.edges.end(), [&](const std::array<int, 2>& edge) {
+                   const std::size_t a = index(edge[0]), b = index(edge[1]);
+                   return (moved[b] - moved[a]).norm() < midpoint_below * (rest[b] - rest[a]).norm();
+                 });
+        });
+  });
+  return are_small;
 }
 
 /// K(u part) u, with the tangent at a part of the way to the displacement, as seen from the first point.
@@ -170,23 +252,21 @@ Points tangent_product(const Lattice& lattice, const Points& displacement, doubl
   Points at = lattice.rest, product(at.size(), Vector3d::Zero());
   for (std::size_t p = 0; p < at.size(); ++p)
     at[p] = (lattice.rest[p] - lattice.rest[0]) + part * displacement[p];
-  visit_tangent_blocks(lattice, at, TransverseTerm::exact,
-                       [&](int row, int column, const Eigen::Matrix3d& block) {
-                         product[index(row)] += block * displacement[index(column)];
-                         if (row != column)
-                           product[index(column)] += block.transpose() * displacement[index(row)];
-                       });
+  visit_tangent_blocks(lattice, at, TransverseTerm::exact, [&](int row, int column, const Matrix3d& block) {
+    product[index(row)] += block * displacement[index(column)];
+    if (row != column) product[index(column)] += block.transpose() * displacement[index(row)];
+  });
   return product;
 }
 
 } // namespace
 
 double energy(const Lattice& lattice, const Points& positions) {
-  return energy_of(lattice, between(positions));
+  return energy_of(lattice, positions, no_displacement(lattice));
 }
 
 double energy_at(const Lattice& lattice, const Points& displacement) {
-  if (!is_small(lattice, displacement)) return energy_of(lattice, between(lattice.rest, displacement));
+  if (!is_small(lattice, displacement)) return energy_of(lattice, lattice.rest, displacement);
   const Points force = tangent_product(lattice, displacement, 1. / 3);
   double sum = 0;
   for (std::size_t p = 0; p < force.size(); ++p) sum += force[p].dot(displacement[p]) / 2;
@@ -194,36 +274,17 @@ double energy_at(const Lattice& lattice, const Points& displacement) {
 }
 
 double small_motion_energy(const Lattice& lattice, const Points& motion) {
-  double sum = 0;
-  for (const auto& [i, j, spring] : lattice.links) {
-    const Vector3d along = (lattice.rest[index(j)] - lattice.rest[index(i)]).normalized();
-    const double elongation = along.dot(motion[index(j)] - motion[index(i)]);
-    sum += 0.5 * spring.stiffness * elongation * elongation;
-  }
-  for (const VolumeCell& cell : lattice.volume_cells) {
-    const auto gradient = trilinear_volume_gradient(cell_positions(cell, lattice.rest));
-    double change = 0;
-    for (std::size_t v = 0; v < 8; ++v) change += gradient[v].dot(motion[index(cell.nodes[v])]);
-    sum += 0.5 * cell.stiffness / cell.rest_volume * change * change;
-  }
-  for (const Tetrahedron& t : lattice.tetrahedra) {
-    EdgeValues changes; // changes of squared lengths, to first order
-    for (std::size_t e = 0; e < 6; ++e) {
-      const int a = t.nodes[index(tetrahedron_edges[e][0])], b = t.nodes[index(tetrahedron_edges[e][1])];
-      changes[static_cast<Eigen::Index>(e)] =
-          2 * (lattice.rest[index(b)] - lattice.rest[index(a)]).dot(motion[index(b)] - motion[index(a)]);
-    }
-    sum += 0.5 * changes.dot(t.stiffness * changes);
-  }
-  return sum;
+  return sum_over_terms(lattice, [&](const auto& term, const auto& nodes) {
+    return term.small_motion_energy(at_nodes(nodes, lattice.rest), at_nodes(nodes, motion));
+  });
 }
 
 Points internal_force(const Lattice& lattice, const Points& positions) {
-  return force_of(lattice, between(positions));
+  return force_of(lattice, positions, no_displacement(lattice));
 }
 
 Points internal_force_at(const Lattice& lattice, const Points& displacement) {
-  if (!is_small(lattice, displacement)) return force_of(lattice, between(lattice.rest, displacement));
+  if (!is_small(lattice, displacement)) return force_of(lattice, lattice.rest, displacement);
   Points force = tangent_product(lattice, displacement, 0.5);
   for (Vector3d& of_point : force) of_point = -of_point;
   return force;

@@ -2,7 +2,6 @@
 
 #include "cases/mesh/hex_mesh.hpp"
 #include "msm/spring.hpp"
-#include "msm/tetrahedron.hpp"
 
 #include <optional>
 
@@ -13,20 +12,15 @@ using CellPositions = std::array<Eigen::Vector3d, 8>; ///< mm, vertex v = i + 2j
 
 /// Parameters of the law of a cell's springs, by kind: the exponents of power-log springs.
 struct Exponents {
-  double edge, face_diagonal, internal_diagonal;
+  std::array<double, 3> by_kind; ///< an edge's, a face diagonal's, an internal diagonal's
   LawKind law = LawKind::power_log;
-  bool operator==(const Exponents& other) const {
-    return edge == other.edge && face_diagonal == other.face_diagonal &&
-           internal_diagonal == other.internal_diagonal && law == other.law;
-  }
+  bool operator==(const Exponents& other) const { return by_kind == other.by_kind && law == other.law; }
 };
 
 /// The law of a cell's spring that crosses 1 axis (an edge), 2 (a face diagonal) or 3 (an internal diagonal).
 /// @param exponents  nothing: Hooke's
 inline SpringLaw law_of(const std::optional<Exponents>& exponents, int n_axes) {
-  if (!exponents) return {};
-  const auto& [edge, face_diagonal, internal_diagonal, law] = *exponents;
-  return {law, n_axes == 1 ? edge : n_axes == 2 ? face_diagonal : internal_diagonal};
+  return exponents ? SpringLaw{exponents->law, exponents->by_kind[cases::index(n_axes - 1)]} : SpringLaw{};
 }
 inline LawKind kind_of(const std::optional<Exponents>& exponents) {
   return law_of(exponents, 1).kind;
@@ -41,6 +35,9 @@ struct CellStiffness {
   double volume = 0;                    ///< k_v, MPa
   std::optional<Exponents> exponents{}; ///< another law than Hooke's, with its law of the volume term in
                                         ///< place of the linear one, (k_v/2) V0 (V/V0 - 1)²
+
+  /// k_e, k_f, k_d.
+  std::array<double, 3> springs() const { return {edge, face_diagonal, internal_diagonal}; }
 };
 
 /// All stiffnesses times a factor.
@@ -48,43 +45,6 @@ inline CellStiffness scaled(CellStiffness k, double factor) {
   for (double* of : {&k.edge, &k.face_diagonal, &k.internal_diagonal, &k.volume}) *of *= factor;
   return k;
 }
-
-/// Two points joined by a spring. Springs of one law that cells share are one link with the sum of the cells'
-/// stiffnesses.
-struct Link {
-  int i, j; ///< i < j
-  Spring spring;
-};
-
-/// A cell that resists a change of its volume.
-struct VolumeCell {
-  std::array<int, 8> nodes; ///< vertex v = i + 2j + 4k
-  double stiffness;         ///< k_v, MPa
-  double rest_volume;       ///< mm³
-  bool is_logarithmic = false;
-
-  /// Returns the cell's law at these positions.
-  VolumeLaw law(const CellPositions& x) const;
-};
-
-/// Four points joined by biquadratic springs (tetrahedron.hpp).
-struct Tetrahedron {
-  std::array<int, 4> nodes;
-  EdgeMatrix stiffness;    ///< N/mm³
-  EdgeValues rest_lengths; ///< mm
-};
-
-/// Makes a tetrahedron of an isotropic material with Lame's constants, MPa.
-Tetrahedron make_tetrahedron(const std::array<int, 4>& nodes, const Points& rest, double lambda, double mu);
-
-/// A mass-spring body at rest: its points, links, tetrahedra and volume terms. Links are sorted by (i, j) and
-/// unique but for their law.
-struct Lattice {
-  Points rest; ///< mm
-  std::vector<Link> links;
-  std::vector<VolumeCell> volume_cells; ///< empty when no cell has a volume term
-  std::vector<Tetrahedron> tetrahedra{};
-};
 
 /// Volume of the trilinear hexahedron, mm³, and its derivatives. It is a cubic form of the vertices,
 ///   V = 1/6 sum_abc T_abc x_a . (x_b x x_c),
@@ -99,11 +59,153 @@ std::array<Eigen::Vector3d, 8> trilinear_volume_gradient(const CellPositions& x)
 /// d²V/(dx_a dx_b) as 3x3 blocks [a][b], mm: entry (i, j) = epsilon_ijk (sum_c T_abc x_c)_k.
 std::array<std::array<Eigen::Matrix3d, 8>, 8> trilinear_volume_second_derivative(const CellPositions& x);
 
-/// Positions of the tetrahedron's vertices, mm.
-TetrahedronPositions tetrahedron_positions(const Tetrahedron& tetrahedron, const Points& positions);
+/// Where the nodes of a term are, mm.
+template<std::size_t n>
+using Positions = std::array<Eigen::Vector3d, n>;
 
-/// Positions of the cell's vertices, mm.
-CellPositions cell_positions(const VolumeCell& cell, const Points& positions);
+/// Two points joined by a spring. Springs of one law that cells share are one link with the sum of the cells'
+/// stiffnesses.
+///
+/// The terms of a lattice are of several kinds: links, VolumeCell, Tetrahedron. Every kind has, as functions
+/// of its nodes' positions x, the `energy`, N mm; the `forces` on the nodes, N, minus its gradient; the
+/// `tangent`, its second derivative: a function that returns the 3x3 block of two nodes, N/mm, clamped such
+/// that the whole is positive semidefinite where no stiffness is negative; and the `small_motion_energy` of a
+/// motion from rest, to second order. Its `edges` tell how much it is deformed.
+struct Link {
+  static constexpr std::array<std::array<int, 2>, 1> edges{{{0, 1}}};
+  int i, j; ///< i < j
+  Spring spring;
+
+  double energy(const Positions<2>& x) const { return spring_energy(x[1] - x[0], spring); }
+  double small_motion_energy(const Positions<2>& rest, const Positions<2>& motion) const {
+    const double elongation = (rest[1] - rest[0]).normalized().dot(motion[1] - motion[0]);
+    return 0.5 * spring.stiffness * elongation * elongation;
+  }
+  Positions<2> forces(const Positions<2>& x) const {
+    const Eigen::Vector3d force = spring_force(x[1] - x[0], spring);
+    return {force, -force};
+  }
+  auto tangent(const Positions<2>& x, TransverseTerm term) const {
+    return [block = spring_stiffness(x[1] - x[0], spring, term)](std::size_t a,
+                                                                 std::size_t b) -> Eigen::Matrix3d {
+      return a == b ? block : Eigen::Matrix3d(-block);
+    };
+  }
+};
+
+/// A cell that resists a change of its volume. Clamped, its tangent is without the second derivative of the
+/// volume under pressure.
+struct VolumeCell {
+  static constexpr auto& edges = cases::cell_edges;
+  std::array<int, 8> nodes; ///< vertex v = i + 2j + 4k
+  double stiffness;         ///< k_v, MPa
+  double rest_volume;       ///< mm³
+  bool is_logarithmic = false;
+
+  /// Returns the cell's law at these positions.
+  VolumeLaw law(const CellPositions& x) const {
+    return volume_law(trilinear_volume(x) / rest_volume, is_logarithmic);
+  }
+  double energy(const CellPositions& x) const { return stiffness * rest_volume * law(x).integral; }
+  double small_motion_energy(const CellPositions& rest, const CellPositions& motion) const;
+  CellPositions forces(const CellPositions& x) const;
+  auto tangent(const CellPositions& x, TransverseTerm term) const {
+    const VolumeLaw at = law(x);
+    return [=, pressure = stiffness * at.pressure, slope = stiffness / rest_volume * at.slope,
+            gradient = trilinear_volume_gradient(x),
+            second = trilinear_volume_second_derivative(x)](std::size_t a, std::size_t b) -> Eigen::Matrix3d {
+      Eigen::Matrix3d block = slope * gradient[a] * gradient[b].transpose();
+      if (term == TransverseTerm::exact) block += pressure * second[a][b];
+      return block;
+    };
+  }
+};
+
+/// Tetrahedra of biquadratic springs: energies of the changes of squared lengths, Delta_e = l_e² - L_e², of
+/// the six edges,
+///   W = 1/2 sum_ef K_ef Delta_e Delta_f,  K_ef = V/4 (2 mu B_e : B_f + lambda tr B_e tr B_f),
+///   B_e = sym(grad N_a (x) grad N_b) for the edge e = (a, b) and the linear shape functions N.
+/// As the Green strain of a linear tetrahedron is -1/2 sum_e Delta_e B_e, this is the St. Venant-Kirchhoff
+/// energy V (mu E : E + lambda/2 (tr E)²) of the linear finite element.
+/// Source: Delingette 2008 (in two dimensions: triangular biquadratic springs), in three dimensions.
+inline constexpr std::array<std::array<int, 2>, 6> tetrahedron_edges{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+using TetrahedronPositions = Positions<4>;
+using EdgeValues = Eigen::Matrix<double, 6, 1>; ///< in the order of tetrahedron_edges
+using EdgeMatrix = Eigen::Matrix<double, 6, 6>;
+using TetrahedronMatrix = Eigen::Matrix<double, 12, 12>;
+
+/// @return mm³, positive or negative as the vertices are ordered
+double tetrahedron_volume(const TetrahedronPositions& x);
+
+/// K of the energy above, N/mm³.
+/// @param rest  mm, of a volume that is not 0    @param lambda, mu  MPa
+EdgeMatrix biquadratic_stiffness(const TetrahedronPositions& rest, double lambda, double mu);
+
+/// Four points joined by biquadratic springs.
+struct Tetrahedron {
+  static constexpr auto& edges = tetrahedron_edges;
+  std::array<int, 4> nodes;
+  EdgeMatrix stiffness;    ///< N/mm³
+  EdgeValues rest_lengths; ///< mm
+
+  /// Delta_e, mm².
+  EdgeValues squared_length_changes(const TetrahedronPositions& x) const;
+  /// Tensions of the edges, N: each pulls its ends together with 2 (K Delta)_e l_e, below 0 when they are
+  /// pushed apart.
+  EdgeValues tensions(const TetrahedronPositions& x) const;
+  double energy(const TetrahedronPositions& x) const;
+  double small_motion_energy(const TetrahedronPositions& rest, const TetrahedronPositions& motion) const;
+  TetrahedronPositions forces(const TetrahedronPositions& x) const;
+  /// Degree of freedom 3*vertex + component. Clamped, no edge under compression has its geometric part, and
+  /// the matrix is positive semidefinite where K is.
+  TetrahedronMatrix tangent_matrix(const TetrahedronPositions& x, TransverseTerm term) const;
+  auto tangent(const TetrahedronPositions& x, TransverseTerm term) const {
+    return [matrix = tangent_matrix(x, term)](std::size_t a, std::size_t b) -> Eigen::Matrix3d {
+      return matrix.block<3, 3>(static_cast<Eigen::Index>(3 * a), static_cast<Eigen::Index>(3 * b));
+    };
+  }
+};
+
+/// Makes a tetrahedron of an isotropic material with Lame's constants, MPa.
+/// @param rest  positions of its vertices, mm
+Tetrahedron make_tetrahedron(const std::array<int, 4>& nodes, const TetrahedronPositions& rest, double lambda,
+                             double mu);
+
+/// A mass-spring body at rest: its points, links, tetrahedra and volume terms. Links are sorted by (i, j) and
+/// unique but for their law.
+struct Lattice {
+  Points rest; ///< mm
+  std::vector<Link> links;
+  std::vector<VolumeCell> volume_cells; ///< empty when no cell has a volume term
+  std::vector<Tetrahedron> tetrahedra{};
+};
+
+/// Calls action(terms) for the terms of each kind.
+/// @param lattice  a Lattice, constant or not
+template<class AnyLattice, class Action>
+void for_each_kind(AnyLattice& lattice, const Action& action) {
+  action(lattice.links);
+  action(lattice.volume_cells);
+  action(lattice.tetrahedra);
+}
+
+template<class Term>
+const auto& nodes_of(const Term& term) {
+  return term.nodes;
+}
+inline std::array<int, 2> nodes_of(const Link& link) {
+  return {link.i, link.j};
+}
+
+/// The values of some nodes among those of all points.
+template<std::size_t n>
+Positions<n> at_nodes(const std::array<int, n>& nodes, const Points& values) {
+  Positions<n> picked;
+  for (std::size_t v = 0; v < n; ++v) picked[v] = values[cases::index(nodes[v])];
+  return picked;
+}
 
 /// Sum of all energies of springs, tetrahedra and volume terms at these positions, N mm.
 double energy(const Lattice& lattice, const Points& positions);

@@ -1,23 +1,17 @@
 #include "msm/model.hpp"
 
 #include "cases/case/error.hpp"
-#include "mechanics/equilibrium/find_equilibrium.hpp"
+#include "cases/scene/in_time.hpp"
+#include "mechanics/field_sums.hpp"
 #include "msm/direct/direct_system.hpp"
+#include "msm/grid/moving_grid.hpp"
 #include "msm/relaxation/relaxation.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace springproof::msm {
-
-namespace {
-
-[[noreturn]] void refuse_multigrid() {
-  throw cases::InputError(
-      "the multigrid path needs a body that is a grid of cells of edges, face diagonals, "
-      "internal diagonals and a volume term, springs of one law, and no negative stiffness");
-}
-
-} // namespace
 
 bool prefers_multigrid(const cases::Grid& grid, double n_nodes) {
   return n_nodes >= multigrid_from && !(grid.slenderness() > cases::Grid::thin && n_nodes <= most_factorised);
@@ -25,12 +19,16 @@ bool prefers_multigrid(const cases::Grid& grid, double n_nodes) {
 
 bool takes_multigrid(const cases::Scene& scene, const SpringBody& springs, Path wanted) {
   const std::vector<CellStiffness>* cells = springs.cells();
-  const auto is_another = [&](const CellStiffness& k) {
-    return !(k.exponents == cells->front().exponents) || k.edge < 0 || k.face_diagonal < 0 ||
-           k.internal_diagonal < 0 || k.volume < 0;
+  const auto is_another = [&](const CellStiffness& cell) {
+    const std::array<double, 3> k = cell.springs();
+    return !(cell.exponents == cells->front().exponents) || *std::min_element(k.begin(), k.end()) < 0 ||
+           cell.volume < 0;
   };
   const bool can = scene.mesh.grid && cells && std::none_of(cells->begin(), cells->end(), is_another);
-  if (wanted == Path::multigrid && !can) refuse_multigrid();
+  if (wanted == Path::multigrid && !can)
+    throw cases::InputError(
+        "the multigrid path needs a body that is a grid of cells of edges, face diagonals, "
+        "internal diagonals and a volume term, springs of one law, and no negative stiffness");
   if (wanted != Path::automatic) return wanted == Path::multigrid;
   return can && prefers_multigrid(*scene.mesh.grid, double(scene.mesh.nodes.size()));
 }
@@ -88,6 +86,208 @@ cases::Solution Model::solve_on_path(mechanics::EquilibriumSettings settings, co
                   sharing_);
   if (relaxation_) solution.from_equilibrium = cases::FromEquilibrium{settings.tolerance, {}, {}, {}, {}};
   return solution;
+}
+
+MovingBody::MovingBody(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options)
+    : problem_(make_moving_problem(scene)) {
+  const SpringBody damping = damping_springs(scene, springs);
+  if (takes_multigrid(scene, springs, options.path)) {
+    grid_ = grid::make_grid_problem(problem_, *springs.cells());
+    vectors_.emplace(grid_->body);
+    auto statics = grid::make_grid_system(*grid_, options.n_threads);
+    motion_ = grid::make_moving_grid(problem_, *grid_, *vectors_, *statics, make_inertia(scene, {}),
+                                     *damping.cells(), options.n_threads);
+    statics_ = std::move(statics);
+  } else {
+    problem_.lattice = make_lattice(scene.mesh, springs);
+    statics_ = make_direct_system(problem_);
+    motion_ =
+        make_moving_lattice(problem_, *statics_, make_inertia(scene, make_lattice(scene.mesh, damping)));
+  }
+  find_entries();
+}
+
+/// What the places of a vector become as points says where they are.
+void MovingBody::find_entries() {
+  const Vector places = Vector::LinSpaced(size(), 1, static_cast<double>(size()));
+  Vector room;
+  const Points at = grid_ ? grid::to_points(problem_, grid_->body, vectors_->to_field(places, room))
+                          : msm::to_points(problem_, places);
+  for (const Eigen::Vector3d& of_point : at) {
+    entries_.emplace_back();
+    for (int c = 0; c < 3; ++c) entries_.back()[cases::index(c)] = std::lround(of_point[c]) - 1;
+  }
+}
+
+Vector MovingBody::to_vector(const Points& points) const {
+  Vector vector = Vector::Zero(size());
+  for (std::size_t p = 0; p < points.size(); ++p)
+    for (int c = 0; c < 3; ++c)
+      if (const Eigen::Index entry = entries_[p][cases::index(c)]; entry >= 0) vector[entry] = points[p][c];
+  return vector;
+}
+
+Eigen::Vector3d MovingBody::at_node(const Vector& vector, int node) const {
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+  for (int c = 0; c < 3; ++c)
+    if (const Eigen::Index entry = entries_[cases::index(node)][cases::index(c)]; entry >= 0)
+      value[c] = vector[entry];
+  return value;
+}
+
+Points MovingBody::to_points(const Vector& vector) const {
+  Points points;
+  points.reserve(entries_.size());
+  for (std::size_t node = 0; node < entries_.size(); ++node)
+    points.push_back(at_node(vector, static_cast<int>(node)));
+  return points;
+}
+
+Pull& MovingBody::hold(const std::vector<cases::NodeWeight>& place, double stiffness) {
+  Pull::Entries entries;
+  for (const auto& [node, weight] : place)
+    for (std::size_t c = 0; c < 3; ++c)
+      if (const Eigen::Index at = entries_[cases::index(node)][c]; at >= 0)
+        entries[c].push_back({at, weight, !problem_.is_constrained[3 * cases::index(node) + c]});
+  return motion_->hold({std::move(entries), stiffness});
+}
+
+namespace {
+
+/// Displacement when the motion begins, mm, one per point.
+Points start_of(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options,
+                const mechanics::IntegrationSettings& steps) {
+  if (scene.definition.dynamics->start == cases::MotionStart::rest)
+    return Points(scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
+  // What a step in real time may leave is no equilibrium.
+  const auto settings = steps.enough_linear_iterations ? mechanics::EquilibriumSettings{} : steps.newton;
+  return Model(cases::scene_before_start(scene), springs, options).solve(settings).displacement;
+}
+
+/// Volume of a body, mm³.  @param displacement  mm, one per node
+double volume_of(const cases::HexMesh& mesh, const Points& displacement) {
+  double sum = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    sum += cases::cell_volume(cases::cell_vertices(mesh, c, displacement));
+  return sum;
+}
+
+cases::Solution follow(const cases::Scene& scene, MovingBody& body, const Points& start,
+                       const mechanics::IntegrationSettings& settings) {
+  const auto points = [&](const Vector& state) { return body.to_points(state); };
+  const mechanics::FollowedMotion followed = mechanics::follow_motion(
+      scene,
+      {body.motion(), points,
+       [&](const Vector& state) { return volume_of(body.problem().mesh, points(state)); }},
+      body.to_vector(start), settings);
+  cases::Solution solution = solution_of(body.problem(), followed.work, points(followed.end));
+  solution.trajectory = followed.trajectory;
+  return solution;
+}
+
+} // namespace
+
+cases::Solution follow(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options,
+                       const mechanics::IntegrationSettings& settings) {
+  ModelOptions directly = options;
+  directly.path = Path::direct;
+  MovingBody body(scene, springs, options);
+  try {
+    return follow(scene, body, start_of(scene, springs, body.is_on_grid() ? options : directly, settings),
+                  settings);
+  } catch (const cases::SolveError&) {
+    const bool may_be_factorised =
+        body.is_on_grid() && options.path == Path::automatic && scene.mesh.nodes.size() <= most_factorised;
+    if (!may_be_factorised || !body.motion().has_failed()) throw;
+  }
+  return follow(scene, springs, directly, settings);
+}
+
+namespace {
+
+using cases::index;
+using Eigen::Vector3d;
+
+/// A cell as its first vertex sees it, at rest and displaced: far from the origin positions have lost digits.
+struct SeenCell {
+  CellPositions rest, motion, now; ///< mm
+  /// @param displacement  one per node from first_node on
+  SeenCell(const cases::HexMesh& mesh, std::size_t cell, const Points& displacement, std::size_t first_node) {
+    const std::array<int, 8> nodes = mesh.cells[cell];
+    const auto moved = [&](int node) -> const Vector3d& { return displacement[index(node) - first_node]; };
+    const Vector3d corner = mesh.nodes[index(nodes[0])];
+    for (std::size_t v = 0; v < 8; ++v) {
+      rest[v] = mesh.nodes[index(nodes[v])] - corner;
+      motion[v] = moved(nodes[v]) - moved(nodes[0]);
+      now[v] = rest[v] + motion[v];
+    }
+  }
+};
+
+/// Adds what a cell is without its springs.
+void add_shape(mechanics::CellSums& sum, const SeenCell& cell) {
+  sum.rest_volume() = trilinear_volume(cell.rest);
+  sum.volume() = trilinear_volume(cell.now);
+  const auto mean_gradient = trilinear_volume_gradient(cell.rest); // integrals of grad N_a, mm²
+  for (std::size_t v = 0; v < 8; ++v) sum.gradient() += cell.motion[v] * mean_gradient[v].transpose();
+}
+
+mechanics::FieldsOf how_of(const cases::Scene& scene, const cases::Solution& solution, double load_factor) {
+  return {load_factor, mechanics::StrainMeasure::logarithmic, scene.definition.msm.mass,
+          solution.status == cases::Status::converged && solution.is_equilibrium()
+              ? mechanics::Balance::at_nodes
+              : mechanics::Balance::not_asked};
+}
+
+cases::Fields fields_of_cells(const cases::Scene& scene, const SpringBody& springs,
+                              const cases::Solution& solution, double load_factor) {
+  const cases::Sharing* const sharing = solution.sharing.get();
+  const cases::Share here = cases::share_here(scene.mesh, sharing);
+  mechanics::FieldSums sums(here.nodes, here.cells);
+  for_each_cell(scene.mesh, springs, here.cells, [&](std::size_t c, const CellTerms& terms) {
+    const SeenCell cell(scene.mesh, c, solution.displacement, here.nodes.begin);
+    mechanics::CellSums& sum = sums.cell(c);
+    add_shape(sum, cell);
+    const Lattice lattice = cell_lattice(terms, cell.rest);
+    const Points motion(cell.motion.begin(), cell.motion.end()), force = internal_force_at(lattice, motion);
+    sum.energy() += energy_at(lattice, motion);
+    const std::array<int, 8> nodes = scene.mesh.cells[c];
+    for (std::size_t v = 0; v < 8; ++v) {
+      sum.virial() -= force[v] * cell.now[v].transpose();
+      sums.force(index(nodes[v])) -= force[v];
+    }
+  });
+  return mechanics::fields_of(scene, std::move(sums), sharing, how_of(scene, solution, load_factor));
+}
+
+cases::Fields fields_of_network(const cases::Scene& scene, const Lattice& network,
+                                const cases::Solution& solution, double load_factor) {
+  const cases::Sharing* const sharing = solution.sharing.get();
+  const cases::Share here = cases::share_here(scene.mesh, sharing);
+  mechanics::FieldSums sums(here.nodes, here.cells);
+  for (std::size_t c = here.cells.begin; c < here.cells.end; ++c)
+    add_shape(sums.cell(c), SeenCell(scene.mesh, c, solution.displacement, here.nodes.begin));
+  // A spring may end anywhere: every rank, which has all springs, takes all nodes for once.
+  const Points all = sharing ? sharing->gather(solution.displacement) : solution.displacement;
+  const Points force = internal_force_at(network, all);
+  for (std::size_t node = here.own_nodes.begin; node < here.own_nodes.end; ++node)
+    sums.force(node) = -force[node];
+  cases::Fields fields =
+      mechanics::fields_of(scene, std::move(sums), sharing, how_of(scene, solution, load_factor));
+  fields.total_energy = energy_at(network, all);
+  fields.has_stress = false;
+  fields.strain_energy.clear();
+  fields.stress.clear();
+  return fields;
+}
+
+} // namespace
+
+cases::Fields fields(const cases::Scene& scene, const SpringBody& springs, const cases::Solution& solution,
+                     double load_factor) {
+  return springs.network()
+             ? fields_of_network(scene, make_lattice(scene.mesh, springs), solution, load_factor)
+             : fields_of_cells(scene, springs, solution, load_factor);
 }
 
 } // namespace springproof::msm

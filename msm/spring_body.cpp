@@ -127,9 +127,10 @@ void add_cell(Lattice& lattice, const CellTerms& terms, const std::array<int, 8>
     const double length = (lattice.rest[index(j)] - lattice.rest[index(i)]).norm();
     lattice.links.push_back({i, j, {spring.stiffness, length, spring.law}});
   }
-  for (const CellTetrahedron& tetrahedron : terms.tetrahedra)
-    lattice.tetrahedra.push_back(make_tetrahedron(cases::pick(nodes, tetrahedron.vertices), lattice.rest,
-                                                  tetrahedron.lambda, tetrahedron.mu));
+  for (const auto& [vertices, lambda, mu] : terms.tetrahedra) {
+    const std::array<int, 4> own = cases::pick(nodes, vertices);
+    lattice.tetrahedra.push_back(make_tetrahedron(own, at_nodes(own, lattice.rest), lambda, mu));
+  }
   if (terms.volume != 0)
     lattice.volume_cells.push_back({nodes, terms.volume, rest_volume, terms.is_logarithmic});
 }
@@ -161,14 +162,14 @@ CellTerms terms_of(const CellStiffness& stiffness) {
   return terms;
 }
 
-CellTerms terms_by_axis(const std::array<double, 7>& stiffness, double volume) {
+CellTerms terms_by_axis(const AxisStiffness& stiffness) {
   CellTerms terms = terms_of(CellStiffness{1, 1, 1});
   for (CellSpring& spring : terms.springs) {
     const int crossed = spring.vertices[0] ^ spring.vertices[1]; // bit a: the axis a
     const std::array<std::size_t, 8> place{0, 0, 1, 5, 2, 4, 3, 6};
-    spring.stiffness = stiffness[place[static_cast<std::size_t>(crossed)]];
+    spring.stiffness = stiffness.springs[place[index(crossed)]];
   }
-  terms.volume = volume;
+  terms.volume = stiffness.volume;
   return terms;
 }
 

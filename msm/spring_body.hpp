@@ -73,9 +73,12 @@ struct SpringBody {
 /// The same springs and volume term, as terms.
 CellTerms terms_of(const CellStiffness& stiffness);
 
-/// Springs whose stiffnesses differ from axis to axis.
-/// @param stiffness  N/mm: k_e along x, y, z; k_f in the faces across x, y, z; k_d    @param volume  k_v, MPa
-CellTerms terms_by_axis(const std::array<double, 7>& stiffness, double volume);
+/// Stiffnesses of one cell by axis.
+struct AxisStiffness {
+  std::array<double, 7> springs; ///< N/mm: k_e along x, y, z; k_f in the faces across x, y, z; k_d
+  double volume;                 ///< k_v, MPa
+};
+CellTerms terms_by_axis(const AxisStiffness& stiffness);
 
 /// All stiffnesses times a factor.
 CellTerms scaled(CellTerms terms, double factor);

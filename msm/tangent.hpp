@@ -7,43 +7,20 @@
 namespace springproof::msm {
 
 /// Second derivative of energy() as 3x3 blocks: calls sink(row point, column point, block in N/mm) for every
-/// contribution with row point >= column point (the matrix is symmetric). Clamped, no spring has a negative
-/// transverse term, no edge of a tetrahedron a negative geometric one, and no cell the second derivative of
-/// its volume under pressure, so that the sum is positive semidefinite.
+/// contribution with row point >= column point (the matrix is symmetric). Clamped, the sum is positive
+/// semidefinite.
 template<class Sink>
 void visit_tangent_blocks(const Lattice& lattice, const Points& positions, TransverseTerm term,
                           const Sink& sink) {
-  for (const Link& link : lattice.links) {
-    const Eigen::Matrix3d block = spring_stiffness(
-        positions[cases::index(link.j)] - positions[cases::index(link.i)], link.spring, term);
-    sink(link.i, link.i, block);
-    sink(link.j, link.j, block);
-    sink(link.j, link.i, -block);
-  }
-  for (const VolumeCell& cell : lattice.volume_cells) {
-    const CellPositions x = cell_positions(cell, positions);
-    const auto gradient = trilinear_volume_gradient(x);
-    const auto second = trilinear_volume_second_derivative(x);
-    const VolumeLaw law = cell.law(x);
-    const double pressure = cell.stiffness * law.pressure,
-                 slope = cell.stiffness / cell.rest_volume * law.slope;
-    for (std::size_t a = 0; a < 8; ++a)
-      for (std::size_t b = 0; b < 8; ++b) {
-        if (cell.nodes[a] < cell.nodes[b]) continue;
-        Eigen::Matrix3d block = slope * gradient[a] * gradient[b].transpose();
-        if (term == TransverseTerm::exact) block += pressure * second[a][b];
-        sink(cell.nodes[a], cell.nodes[b], block);
-      }
-  }
-  for (const Tetrahedron& t : lattice.tetrahedra) {
-    const TetrahedronMatrix tangent =
-        biquadratic_tangent(tetrahedron_positions(t, positions), t.rest_lengths, t.stiffness, term);
-    for (int a = 0; a < 4; ++a)
-      for (int b = 0; b < 4; ++b) {
-        const int row = t.nodes[cases::index(a)], column = t.nodes[cases::index(b)];
-        if (row >= column) sink(row, column, Eigen::Matrix3d(tangent.block<3, 3>(3 * a, 3 * b)));
-      }
-  }
+  for_each_kind(lattice, [&](const auto& terms) {
+    for (const auto& of : terms) {
+      const auto nodes = nodes_of(of);
+      const auto block = of.tangent(at_nodes(nodes, positions), term);
+      for (std::size_t a = 0; a < nodes.size(); ++a)
+        for (std::size_t b = 0; b < nodes.size(); ++b)
+          if (nodes[a] >= nodes[b]) sink(nodes[a], nodes[b], block(a, b));
+    }
+  });
 }
 
 /// The sparse tangent stiffness of a lattice on its free degrees of freedom. The pattern, and every

@@ -1,12 +1,11 @@
 #include "cases/case/names.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/cube/plot_design.hpp"
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/table/json.hpp"
-#include "msm/design/nonlinear_method.hpp"
+#include "msm/design/uniaxial.hpp"
 
 #include <algorithm>
 #include <iostream>

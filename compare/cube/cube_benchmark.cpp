@@ -47,7 +47,7 @@ LoadSetErrors load_set_errors(const std::string& load_set, const std::vector<Com
 cases::Msm given(const msm::CellStiffness& k) {
   cases::Msm options;
   options.design = cases::Design::given;
-  options.stiffness = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
+  options.stiffness = scaled(k, 1e3).springs();
   options.volume_stiffness = k.volume;
   msm::set_law(options, k.exponents);
   return options;

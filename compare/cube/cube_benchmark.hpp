@@ -1,7 +1,7 @@
 #pragma once
 
 #include "compare/study/study.hpp"
-#include "msm/design/homogeneous.hpp"
+#include "msm/design/cells.hpp"
 
 #include <algorithm>
 #include <array>

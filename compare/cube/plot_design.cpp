@@ -1,12 +1,12 @@
-#include "compare/cube/plot_design.hpp"
+#include "compare/cube/write_design.hpp"
 
 #include "cases/case/error.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/gnuplot.hpp"
-#include "msm/design/homogeneous.hpp"
+#include "msm/design/cells.hpp"
 #include "msm/design/multi_load.hpp"
-#include "msm/design/nonlinear_method.hpp"
+#include "msm/design/uniaxial.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
@@ -24,8 +24,7 @@ std::vector<double> equally_spaced(double lowest, double highest, int n) {
 
 /// Stress of one kind of spring alone at the whole cell's width, MPa.
 double contribution(const msm::CellStiffness& part, double lateral_strain, double strain, double edge) {
-  const double k[] = {part.edge, part.face_diagonal, part.internal_diagonal};
-  return msm::axial_stress(k, std::exp(lateral_strain), std::exp(strain), edge);
+  return msm::axial_stress(part, std::exp(lateral_strain), std::exp(strain), edge);
 }
 
 /// A homogeneous test, as a figure shows it.

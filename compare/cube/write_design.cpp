@@ -32,14 +32,6 @@ std::array<std::string, 3> limits(const std::optional<msm::StabilityRange>& rang
           limit(range->shear, msm::search_ends.shear, beyond[2])};
 }
 
-std::array<double, 3> newton_per_metre(const msm::CellStiffness& k) {
-  return {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
-}
-
-std::array<double, 3> exponents_of(const msm::Exponents& p) {
-  return {p.edge, p.face_diagonal, p.internal_diagonal};
-}
-
 bool is_volume(const CubeError& m) {
   return m.measure == "volume";
 }
@@ -146,20 +138,19 @@ void write_compared(std::ostream& out, const DesignAttempt& a) {
   if (!a.design) return write_paragraph(out, "refused: " + a.refusal, fmt::format("{:<17}", a.name), indent);
   const msm::CellStiffness& k = a.design->stiffness;
   const msm::LatticeModuli& m = a.design->moduli;
-  const auto [edge, face, internal] = newton_per_metre(k);
   const auto [stretch, compression, shear] = limits(a.stability, {">", "<", ">"}); // in a column
   if (a.design->by_fibre) {
     fmt::print(out, "{}\n", a.name);
     write_fibre_lattice(out, *a.design->by_fibre);
   } else {
-    const std::string springs = a.design->springs.terms() ? ""
-                                                          : fmt::format("{:>9.4g}{:>8.4g}{:>8.4g}{:>9.4g}",
-                                                                        edge, face, internal, k.volume);
+    const std::string springs = a.design->springs.terms()
+                                    ? ""
+                                    : fmt::format("{:>9.4g}{:>8.4g}{:>8.4g}{:>9.4g}", 1e3 * k.edge,
+                                                  1e3 * k.face_diagonal, 1e3 * k.internal_diagonal, k.volume);
     fmt::print(out, "{:<17}{:>34}{:>9.4g}{:>8.4f}{:>9.4f}{:>7.3f}{:>8}{:>8}\n", a.name, springs,
                m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener, stretch, compression);
   }
-  if (k.exponents)
-    fmt::print(out, "{}exponents {:.4g}\n", indent, fmt::join(exponents_of(*k.exponents), ", "));
+  if (k.exponents) fmt::print(out, "{}exponents {:.4g}\n", indent, fmt::join(k.exponents->by_kind, ", "));
   if (a.design->springs.terms()) write_paragraph(out, springs_text(*a.design), indent, indent);
   write_warnings(out, *a.design);
 }
@@ -213,10 +204,9 @@ void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
   if (design.springs.terms())
     write_paragraph(out, springs_text(design), "  springs          ", std::string(19, ' '));
   else
-    fmt::print(out, "  k_e, k_f, k_d    {:.6g} N/m\n", fmt::join(newton_per_metre(k), ", "));
+    fmt::print(out, "  k_e, k_f, k_d    {:.6g} N/m\n", fmt::join(scaled(k, 1e3).springs(), ", "));
   if (k.volume != 0) fmt::print(out, "  k_v              {:.6g} MPa\n", k.volume);
-  if (k.exponents)
-    fmt::print(out, "  exponents        {:.6g}\n", fmt::join(exponents_of(*k.exponents), ", "));
+  if (k.exponents) fmt::print(out, "  exponents        {:.6g}\n", fmt::join(k.exponents->by_kind, ", "));
   if (design.residual) fmt::print(out, "  residual         {:.6g}\n", *design.residual);
   if (design.by_fibre)
     write_fibre_lattice(out, *design.by_fibre);

@@ -4,7 +4,7 @@
 #include "mechanics/dynamics/time_integrator.hpp"
 #include "mechanics/surface/embedded_surface.hpp"
 #include "mechanics/surface/rays.hpp"
-#include "msm/moving_body.hpp"
+#include "msm/model.hpp"
 
 #include <memory>
 

@@ -113,8 +113,7 @@ Json designed_to_json(const std::vector<Advice>& advice) {
                                          .stiffness;
         Json row{nu, k.edge, k.face_diagonal, k.internal_diagonal, k.volume};
         if (const auto& p = k.exponents)
-          for (const double exponent : {p->edge, p->face_diagonal, p->internal_diagonal})
-            row.push_back(exponent);
+          for (const double exponent : p->by_kind) row.push_back(exponent);
         for (Json& value : row) value = std::stod(fmt::format("{:.6g}", value.get<double>()));
         rows.push_back(std::move(row));
       } catch (const cases::InputError&) { // the advice says why

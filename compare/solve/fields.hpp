@@ -6,7 +6,7 @@
 /// The fields of answers, for cereal: see cases/mesh/fields.hpp.
 namespace cereal {
 
-SPRINGPROOF_FIELDS(springproof::msm::Exponents, edge, face_diagonal, internal_diagonal, law)
+SPRINGPROOF_FIELDS(springproof::msm::Exponents, by_kind, law)
 SPRINGPROOF_FIELDS(springproof::msm::SpringLaw, kind, parameter)
 SPRINGPROOF_FIELDS(springproof::msm::CellStiffness, edge, face_diagonal, internal_diagonal, volume, exponents)
 SPRINGPROOF_FIELDS(springproof::msm::LatticeModuli, c11, c12, c44, zener, youngs_modulus, poissons_ratio,

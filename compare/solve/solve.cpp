@@ -3,7 +3,7 @@
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solvers.hpp"
 #include "compare/solve/springs.hpp"
-#include "msm/fields.hpp"
+#include "msm/model.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

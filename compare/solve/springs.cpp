@@ -4,8 +4,7 @@
 #include "compare/solve/solve.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "mechanics/larger.hpp"
-#include "msm/fields.hpp"
-#include "msm/moving_body.hpp"
+#include "msm/model.hpp"
 #include "msm/moving_springs.hpp"
 
 #include <algorithm>
@@ -20,55 +19,32 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// @param exponents  exponents of another cell of the same material, valid for this one too: no second fit
-msm::DesignResult design_cell(const cases::Scene& scene, std::size_t cell,
-                              const std::optional<msm::Exponents>& exponents = {}) {
-  const cases::Material material =
-      cases::materials_of(scene.definition)[static_cast<std::size_t>(cases::material_of(scene, cell))];
-  cases::Msm options = scene.definition.msm;
-  if (exponents) msm::set_law(options, exponents);
-  return msm::design(design_request(material, cases::cell_vertices(scene.mesh, cell), options));
-}
+/// The designs of a scene's cells. Cells of a material share one; on a mesh that is no grid every cell has
+/// its own shape, and a design of four stiffnesses for itself.
+struct DesignedCells {
+  std::vector<msm::DesignResult> designs;
+  std::vector<std::size_t> of_cell; ///< index of designs
+};
 
-/// Cells of equal shape and material share one design. Where one has springs by axis, all are terms. Every
-/// warning comes once, with the number of its cells.
-msm::DesignResult design_cell_by_cell(const cases::Scene& scene) {
-  msm::DesignResult all;
-  msm::BodyTerms terms;
-  std::vector<msm::CellStiffness> stiffness;
-  bool are_terms = false;
-  std::map<std::string, int> n_cells;
-  int n_misfits = 0;
-  std::map<int, msm::DesignResult> of_material;
-  std::map<int, int> kind_of_material;
+DesignedCells design_cells(const cases::Scene& scene) {
+  const bool is_given = cases::facts_of(scene.definition.msm.design).source == cases::DesignSource::file;
+  const bool follows_shape = !scene.mesh.grid && !is_assembled(scene) && !is_given;
+  const std::vector<cases::Material> materials = cases::materials_of(scene.definition);
+  DesignedCells all;
+  std::map<int, std::size_t> of_material;
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
-    const int material = cases::material_of(scene, c);
-    // Unless the mesh is a grid, every cell has its own shape.
-    if (of_material.count(material) == 0 || !scene.mesh.grid) {
-      of_material[material] = design_cell(scene, c, of_material[material].stiffness.exponents);
-      const msm::DesignResult& own = of_material[material];
-      const msm::BodyTerms* own_terms = own.springs.terms();
-      terms.kinds.push_back(own_terms ? own_terms->kinds.front() : msm::terms_of(own.stiffness));
-      kind_of_material[material] = static_cast<int>(terms.kinds.size()) - 1;
-      are_terms = are_terms || own_terms;
+    const int material = is_given ? 0 : cases::material_of(scene, c);
+    const auto [known, is_new] = of_material.try_emplace(material, all.designs.size());
+    if (is_new || follows_shape) {
+      cases::Msm options = scene.definition.msm;
+      if (!is_new) // the exponents of the material's other cells: no second fit
+        msm::set_law(options, all.designs[known->second].stiffness.exponents);
+      known->second = all.designs.size();
+      all.designs.push_back(msm::design(design_request(materials[cases::index(cases::material_of(scene, c))],
+                                                       cases::cell_vertices(scene.mesh, c), options)));
     }
-    terms.kind_of_cell.push_back(kind_of_material[material]);
-    const msm::DesignResult& cell = of_material[material];
-    const bool misses = cell.misfit && !(cell.misfit->largest <= msm::told_moduli_misfit);
-    for (const std::string& warning : cell.warnings)
-      if (!misses || warning != cell.misfit->text) ++n_cells[warning];
-    if (misses) ++n_misfits;
-    if (cell.misfit && !(all.misfit && cell.misfit->largest <= all.misfit->largest)) all.misfit = cell.misfit;
-    stiffness.push_back(cell.stiffness);
-    if (c == 0) all.moduli = cell.moduli;
+    all.of_cell.push_back(known->second);
   }
-  all.stiffness = stiffness.front();
-  all.springs = are_terms ? msm::SpringBody(std::move(terms)) : msm::SpringBody(std::move(stiffness));
-  for (const auto& [warning, n] : n_cells)
-    all.warnings.push_back(fmt::format("{} of {} cells: {}", n, scene.mesh.cells.size(), warning));
-  if (n_misfits > 0)
-    all.warnings.push_back(
-        fmt::format("{} of {} cells, the worst: {}", n_misfits, scene.mesh.cells.size(), all.misfit->text));
   return all;
 }
 
@@ -82,44 +58,47 @@ std::vector<int> parities(const cases::Grid& grid) {
   return all;
 }
 
-/// Cells of terms: one design for every material, whose mirror images take turns in the grid.
+/// The designs as terms, whose mirror images take turns in the grid.
 /// @throws InputError on a mesh that is no grid when the design has mirror images or stiffnesses by axis
-msm::DesignResult design_terms(const cases::Scene& scene) {
-  if (scene.definition.msm.design == cases::Design::network) {
-    msm::DesignResult network;
-    network.springs = scene.network;
-    network.warnings = cases::doubts_of(scene.network, [&](int n) { return Vector3d(scene.mesh.nodes[n]); });
-    return network;
+msm::BodyTerms terms_of_cells(const cases::Scene& scene, const DesignedCells& cells) {
+  msm::BodyTerms all;
+  for (const msm::DesignResult& design : cells.designs) {
+    const msm::BodyTerms own =
+        design.springs.terms() ? *design.springs.terms() : msm::BodyTerms{{msm::terms_of(design.stiffness)}};
+    all.kinds.insert(all.kinds.end(), own.kinds.begin(), own.kinds.end());
+    all.boundary = own.boundary;
   }
-  msm::DesignResult all = design_cell(scene, 0);
-  msm::BodyTerms terms =
-      all.springs.terms() ? *all.springs.terms() : msm::BodyTerms{{msm::terms_of(all.stiffness)}};
+  const std::size_t n_images = all.kinds.size() / cells.designs.size();
   const cases::Design design = scene.definition.msm.design;
   const bool is_by_axis = design == cases::Design::given || design == cases::Design::transverse;
-  const bool needs_grid = terms.kinds.size() > 1 || is_by_axis;
-  if (needs_grid && !scene.mesh.grid)
+  if ((n_images > 1 || is_by_axis) && !scene.mesh.grid)
     throw cases::InputError(
         scene.definition.msm.where,
         fmt::format("design = \"{}\" is for bodies that are grids of equal cells", cases::name_of(design)));
-  const std::size_t n_images = terms.kinds.size();
   const std::vector<int> parity = n_images > 1 ? parities(*scene.mesh.grid) : std::vector<int>();
-  std::map<int, int> first_of_material{{cases::material_of(scene, 0), 0}};
-  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
-    const int material = cases::material_of(scene, c);
-    if (first_of_material.count(material) == 0) {
-      first_of_material[material] = static_cast<int>(terms.kinds.size());
-      const msm::DesignResult other = design_cell(scene, c);
-      const std::vector<msm::CellTerms>& kinds = other.springs.terms()->kinds;
-      terms.kinds.insert(terms.kinds.end(), kinds.begin(), kinds.end());
-      for (const std::string& warning : other.warnings)
-        if (std::count(all.warnings.begin(), all.warnings.end(), warning) == 0)
-          all.warnings.push_back(warning);
-    }
-    terms.kind_of_cell.push_back(first_of_material[material] + (n_images > 1 ? parity[c] : 0));
-  }
-  terms.planes_of_node = cases::planes_of_nodes(scene.mesh, scene.definition.symmetry);
-  all.springs = std::move(terms);
+  for (std::size_t c = 0; c < cells.of_cell.size(); ++c)
+    all.kind_of_cell.push_back(static_cast<int>(n_images * cells.of_cell[c]) +
+                               (n_images > 1 ? parity[c] : 0));
+  all.planes_of_node = cases::planes_of_nodes(scene.mesh, scene.definition.symmetry);
   return all;
+}
+
+/// Tells of several designs every warning once, with the number of its cells, and the worst misfit.
+void count_warnings(const DesignedCells& cells, msm::DesignResult& all) {
+  const std::size_t n = cells.of_cell.size();
+  std::map<std::string, int> n_cells;
+  int n_misfits = 0;
+  for (const std::size_t of_cell : cells.of_cell) {
+    const msm::DesignResult& cell = cells.designs[of_cell];
+    for (const std::string& warning : cell.warnings)
+      ++(cell.misfit && warning == cell.misfit->text ? n_misfits : n_cells[warning]);
+    if (cell.misfit && !(all.misfit && cell.misfit->largest <= all.misfit->largest)) all.misfit = cell.misfit;
+  }
+  all.warnings.clear();
+  for (const auto& [warning, of_warning] : n_cells)
+    all.warnings.push_back(fmt::format("{} of {} cells: {}", of_warning, n, warning));
+  if (n_misfits > 0)
+    all.warnings.push_back(fmt::format("{} of {} cells, the worst: {}", n_misfits, n, all.misfit->text));
 }
 
 /// Displacements to start from, mm; empty: rest.
@@ -179,11 +158,27 @@ bool is_assembled(const cases::Scene& scene) {
 }
 
 msm::DesignResult design_for(const cases::Scene& scene) {
-  if (is_assembled(scene)) return design_terms(scene);
-  const bool are_alike = scene.mesh.grid && scene.material_of_cell.empty();
-  const bool is_given = cases::facts_of(scene.definition.msm.design).source == cases::DesignSource::file;
-  if (are_alike || is_given) return design_cell(scene, 0);
-  return design_cell_by_cell(scene);
+  if (scene.definition.msm.design == cases::Design::network) {
+    msm::DesignResult network;
+    network.springs = scene.network;
+    network.warnings = cases::doubts_of(scene.network, [&](int n) { return Vector3d(scene.mesh.nodes[n]); });
+    return network;
+  }
+  const DesignedCells cells = design_cells(scene);
+  const std::vector<msm::DesignResult>& designs = cells.designs;
+  msm::DesignResult all = designs.front();
+  const auto has_terms = [](const msm::DesignResult& design) { return design.springs.terms() != nullptr; };
+  if (is_assembled(scene) || std::any_of(designs.begin(), designs.end(), has_terms)) {
+    all.springs = terms_of_cells(scene, cells);
+  } else if (designs.size() > 1) {
+    std::vector<msm::CellStiffness> stiffness;
+    for (const std::size_t of_cell : cells.of_cell) stiffness.push_back(designs[of_cell].stiffness);
+    all.springs = std::move(stiffness);
+  }
+  if (designs.size() == 1) return all;
+  all.residual.reset();
+  count_warnings(cells, all);
+  return all;
 }
 
 msm::SpringBody springs_as_solved(const cases::Scene& scene, const msm::DesignResult& design) {

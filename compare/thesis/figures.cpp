@@ -1,7 +1,7 @@
 #include "compare/thesis/figures.hpp"
 
 #include "cases/case/read_case.hpp"
-#include "compare/cube/plot_design.hpp"
+#include "compare/cube/write_design.hpp"
 #include "compare/modes/write_eigen.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"

@@ -153,11 +153,9 @@ Json advice_to_json(const Advice& a) {
            {"small", errors_to_json(a.cube.small)}, {"large", errors_to_json(a.cube.large)},
            {"reason", text_or_null(a.refusal())},   {"command", a.trace.command}};
   if (a.stiffness) {
-    row["stiffness_per_E_L0"] = {a.stiffness->edge, a.stiffness->face_diagonal,
-                                 a.stiffness->internal_diagonal};
+    row["stiffness_per_E_L0"] = a.stiffness->springs();
     row["volume_stiffness_per_E"] = a.stiffness->volume;
-    if (const auto& p = a.stiffness->exponents)
-      row["exponents"] = {p->edge, p->face_diagonal, p->internal_diagonal};
+    if (const auto& p = a.stiffness->exponents) row["exponents"] = p->by_kind;
   }
   row["small"]["command_of_worst"] = text_or_null(a.small_trace.command);
   row["large"]["command_of_worst"] = text_or_null(a.large_trace.command);

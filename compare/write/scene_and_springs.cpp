@@ -81,8 +81,7 @@ Json components_to_json(const Eigen::Vector3d& v) {
 
 std::string exponents_text(const msm::CellStiffness& k) {
   if (!k.exponents) return "";
-  return fmt::format(", exponents {:.4g}, {:.4g}, {:.4g}", k.exponents->edge, k.exponents->face_diagonal,
-                     k.exponents->internal_diagonal);
+  return fmt::format(", exponents {:.4g}", fmt::join(k.exponents->by_kind, ", "));
 }
 
 std::string cell_text(const msm::CellTerms& terms) {
@@ -154,8 +153,7 @@ Json loads_to_json(const cases::Scene& scene) {
 }
 
 std::string stiffness_text(const msm::CellStiffness& k) {
-  return fmt::format("k_e, k_f, k_d = {:.4g}, {:.4g}, {:.4g} N/m", 1e3 * k.edge, 1e3 * k.face_diagonal,
-                     1e3 * k.internal_diagonal) +
+  return fmt::format("k_e, k_f, k_d = {:.4g} N/m", fmt::join(scaled(k, 1e3).springs(), ", ")) +
          (k.volume != 0 ? fmt::format(", k_v = {:.4g} MPa", k.volume) : "") + exponents_text(k);
 }
 
@@ -171,10 +169,8 @@ std::string springs_text(const msm::DesignResult& design) {
 Json springs_to_json(const msm::DesignResult& design) {
   const msm::CellStiffness& k = design.stiffness;
   Json springs{{"stiffness_N_per_m", nullptr}, {"volume_stiffness_MPa", k.volume}};
-  if (design.springs.cells())
-    springs["stiffness_N_per_m"] = {1e3 * k.edge, 1e3 * k.face_diagonal, 1e3 * k.internal_diagonal};
-  if (k.exponents)
-    springs["exponents"] = {k.exponents->edge, k.exponents->face_diagonal, k.exponents->internal_diagonal};
+  if (design.springs.cells()) springs["stiffness_N_per_m"] = scaled(k, 1e3).springs();
+  if (k.exponents) springs["exponents"] = k.exponents->by_kind;
   if (const msm::BodyTerms* terms = design.springs.terms()) {
     springs["volume_stiffness_MPa"] = terms->kinds.front().volume;
     springs["cell"] = cell_to_json(*terms);

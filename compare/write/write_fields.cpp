@@ -231,7 +231,7 @@ Lines lines_of(const msm::Lattice& lattice, const std::vector<Vector3d>& displac
   for (const msm::Tetrahedron& t : lattice.tetrahedra) {
     msm::TetrahedronPositions x;
     for (std::size_t v = 0; v < 4; ++v) x[v] = along(t.nodes[0], t.nodes[v]);
-    const msm::EdgeValues tensions = msm::biquadratic_tensions(x, t.rest_lengths, t.stiffness);
+    const msm::EdgeValues tensions = t.tensions(x);
     for (std::size_t e = 0; e < 6; ++e) {
       const auto& [v, w] = msm::tetrahedron_edges[e];
       const int a = t.nodes[index(v)], b = t.nodes[index(w)];

@@ -80,7 +80,7 @@ std::array<double, 7> unit_stiffness(const Vector3d& l) {
 }
 
 Elasticity elasticity_by_axis(const AxisStiffness& k, const CellVertices& vertices) {
-  return cell_elasticity({terms_by_axis(k.springs, k.volume)}, vertices);
+  return cell_elasticity({terms_by_axis(k)}, vertices);
 }
 
 /// Returns an elasticity in Mandel's orthonormal basis of the strains.

@@ -1,18 +1,12 @@
 #pragma once
 
 #include "mechanics/elastic_moduli.hpp"
-#include "msm/design/cell_at_rest.hpp"
+#include "msm/design/cells.hpp"
 
 /// Springs that differ from axis to axis: for a transversely isotropic material whose fibre lies along an
 /// axis of the grid, and for cells that are no cubes, where one stiffness for all edges cannot follow a
 /// material.
 namespace springproof::msm {
-
-/// Stiffnesses of one cell by axis.
-struct AxisStiffness {
-  std::array<double, 7> springs; ///< N/mm: k_e along x, y, z; k_f in the faces across x, y, z; k_d
-  double volume;                 ///< k_v, MPa
-};
 
 /// The moduli that a lattice can have, C12 - C66 = C13 - C44, nearest to the material's.
 struct NearestModuli {

@@ -2,10 +2,10 @@
 
 #include "cases/case/error.hpp"
 #include "mechanics/elastic_moduli.hpp"
-#include "msm/design/homogeneous.hpp"
+#include "msm/design/cells.hpp"
 #include "msm/design/multi_load.hpp"
-#include "msm/design/nonlinear_method.hpp"
-#include "msm/design/published.hpp"
+#include "msm/design/small_strain.hpp"
+#include "msm/design/uniaxial.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -97,8 +97,7 @@ std::optional<Exponents> law_of(const cases::Msm& options) {
     break;
   }
   if (!options.exponent) return std::nullopt;
-  const auto& [edge, face_diagonal, internal_diagonal] = *options.exponent;
-  return Exponents{edge, face_diagonal, internal_diagonal, options.law};
+  return Exponents{*options.exponent, options.law};
 }
 
 double split(const DesignRequest& request) {
@@ -132,7 +131,7 @@ BodyTerms* terms_in(DesignResult& result) {
 
 DesignResult in_cell(const DesignRequest& request, const CellStiffness& four, const CubicModuli& moduli) {
   const auto k = by_axis_where_needed(four, moduli, split(request), request.cell);
-  return k ? of_terms({terms_by_axis(k->springs, k->volume)}) : DesignResult{four};
+  return k ? of_terms({terms_by_axis(*k)}) : DesignResult{four};
 }
 
 DesignResult from_linear_method(const DesignRequest& request) {
@@ -177,7 +176,6 @@ DesignResult from_matched_method(const DesignRequest& request) {
   const MatchedFit fit = matched_exponents(material, elastic_moduli(request), split(request),
                                            request.options.strain_range.value_or(matched_range));
   result.stiffness.exponents = fit.exponents;
-  if (BodyTerms* terms = terms_in(result)) set_exponents(terms->kinds.front(), fit.exponents);
   result.residual = fit.objective;
   return result;
 }
@@ -257,7 +255,7 @@ DesignResult from_transverse(const DesignRequest& request) {
   const double edge = required_cube_edge(request);
   const NearestModuli nearest = nearest_lattice_moduli(mechanics::transverse_moduli(material));
   const AxisStiffness k = stiffness_by_axis(nearest.moduli, split(request), static_cast<int>(*axis), edge);
-  const CellTerms terms = terms_by_axis(k.springs, k.volume);
+  const CellTerms terms = terms_by_axis(k);
   if (signs_at_rest(cell_stiffness_matrix(request.cell, terms)).n_negative > 0)
     refuse(request,
            fmt::format("design = \"transverse\": springs cannot follow this material. Their moduli have "
@@ -278,9 +276,9 @@ DesignResult from_transverse(const DesignRequest& request) {
 DesignResult from_given(const DesignRequest& request) {
   const cases::Msm& options = request.options;
   if (options.axis_stiffness) {
-    std::array<double, 7> stiffness = *options.axis_stiffness;
-    for (double& k : stiffness) k *= newton_per_metre;
-    return of_terms({terms_by_axis(stiffness, options.volume_stiffness)});
+    AxisStiffness stiffness{*options.axis_stiffness, options.volume_stiffness};
+    for (double& k : stiffness.springs) k *= newton_per_metre;
+    return of_terms({terms_by_axis(stiffness)});
   }
   if (!options.stiffness) refuse(request, "design = \"given\" needs stiffness = [k_e, k_f, k_d] in N/m");
   const auto& [edge, face_diagonal, internal_diagonal] = *options.stiffness;
@@ -353,7 +351,7 @@ UniaxialCurve uniaxial_reference(const DesignRequest& request, std::optional<dou
 
 void set_law(cases::Msm& options, const std::optional<Exponents>& exponents) {
   options.law = kind_of(exponents);
-  if (exponents) options.exponent = {exponents->edge, exponents->face_diagonal, exponents->internal_diagonal};
+  if (exponents) options.exponent = exponents->by_kind;
 }
 
 DesignResult design(const DesignRequest& request) {
@@ -367,11 +365,10 @@ DesignResult design(const DesignRequest& request) {
                                 cases::designs_for(is_isotropic),
                                 is_isotropic ? "isotropic" : "transversely isotropic"));
   DesignResult result = known_methods.at(options.design)(request);
-  const auto law = law_of(options);
-  if (law) result.stiffness.exponents = law;
+  if (const auto law = law_of(options)) result.stiffness.exponents = law;
   std::vector<CellTerms> kinds{terms_of(result.stiffness)};
   if (BodyTerms* terms = terms_in(result)) {
-    if (law)
+    if (const auto& law = result.stiffness.exponents)
       for (CellTerms& kind : terms->kinds) set_exponents(kind, *law);
     kinds = terms->kinds;
   } else {

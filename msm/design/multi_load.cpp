@@ -5,8 +5,8 @@
 #include "mechanics/laws/log_strain.hpp"
 #include "mechanics/laws/ogden.hpp"
 #include "mechanics/laws/principal_stress.hpp"
+#include "msm/design/cells.hpp"
 #include "msm/design/design.hpp"
-#include "msm/design/homogeneous.hpp"
 #include "msm/design/minimise.hpp"
 #include "msm/design/small_strain.hpp"
 
@@ -96,9 +96,10 @@ class Fit {
  public:
   /// @param name  begins messages    @param part  part of the stresses that counts
   Fit(const std::string& name, const cases::Material& material, double edge,
-      const MultiLoadSettings& settings, Part part, bool fits_volume)
+      const MultiLoadSettings& settings, Part part)
       : name_(name), edge_(edge), part_(part), unit_(small_strain_material(material).youngs_modulus * edge),
-        to_stiffness_(unknowns_to_stiffness(settings.split, fits_volume)) {
+        to_stiffness_(unknowns_to_stiffness(settings.split, settings.has_volume_term && part == Part::all)) {
+    if (settings.has_volume_term && part == Part::deviator) lambda_ = settings.incompressible_lambda;
     for (std::size_t p = 0; p < settings.paths.size(); ++p) {
       Path path{{}, 0, settings.weights[p]};
       for (int i = 0; i < n_states; ++i) {
@@ -163,6 +164,8 @@ class Fit {
       fit.errors.push_back(std::sqrt(squares / path.size_squared));
       fit.objective += path.weight * squares / path.size_squared;
     }
+    if (lambda_) // of the lattice: C12 = C44 + k_v
+      fit.stiffness.volume = *lambda_ - averaged_moduli(cell_elasticity(fit.stiffness, cube(edge_))).c44;
     return fit;
   }
 
@@ -176,12 +179,9 @@ class Fit {
   Part part_;
   double unit_; ///< unit of stiffnesses, N/mm
   Eigen::MatrixXd to_stiffness_;
+  std::optional<double> lambda_; ///< Lame's constant that the volume term gives the lattice, MPa
   std::vector<Path> paths_;
 };
-
-Exponents exponents_of(const double* p) {
-  return {p[0], p[1], p[2]};
-}
 
 /// The residuals of a path, a function of the three exponents, and of a fit's unknowns unless stiffnesses are
 /// held.
@@ -193,7 +193,8 @@ struct PowerLogError {
   bool operator()(double const* const* parameters, double* residual) const {
     CellStiffness springs =
         held ? *held : fit.springs(Eigen::Map<const Eigen::VectorXd>(parameters[1], fit.n_unknowns()), {});
-    springs.exponents = exponents_of(parameters[0]);
+    const double* p = parameters[0];
+    springs.exponents = {p[0], p[1], p[2]};
     Eigen::Map<PathVector> errors(residual);
     errors = fit.residuals(path, springs);
     return true;
@@ -211,12 +212,13 @@ struct FittedExponents {
 /// too
 FittedExponents fit_exponents(const Fit& fit, double start, const std::optional<double>& lowest,
                               const std::optional<CellStiffness>& held = {}) {
-  std::array<double, 3> p;
-  p.fill(lowest ? std::max(start, *lowest) : start);
+  Exponents exponents{};
+  double* const p = exponents.by_kind.data();
+  exponents.by_kind.fill(lowest ? std::max(start, *lowest) : start);
   Eigen::VectorXd unknowns;
-  std::vector<double*> parameters{p.data()};
+  std::vector<double*> parameters{p};
   if (!held) {
-    unknowns = fit.best_unknowns(exponents_of(p.data()));
+    unknowns = fit.best_unknowns(exponents);
     parameters.push_back(unknowns.data());
   }
   ceres::Problem problem;
@@ -230,34 +232,20 @@ FittedExponents fit_exponents(const Fit& fit, double start, const std::optional<
   }
   problem.AddResidualBlock(
       new ceres::NormalPrior(exponent_prior * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Constant(start)),
-      nullptr, p.data());
-  for (int kind = 0; lowest && kind < 3; ++kind) problem.SetParameterLowerBound(p.data(), kind, *lowest);
+      nullptr, p);
+  for (int kind = 0; lowest && kind < 3; ++kind) problem.SetParameterLowerBound(p, kind, *lowest);
   for (int i = 0; i < unknowns.size(); ++i) problem.SetParameterLowerBound(unknowns.data(), i, 0);
   ceres::Solver::Options options;
   options.function_tolerance = 1e-14;
   options.parameter_tolerance = 1e-10;
   const double objective = minimum_of(problem, options, fit.name());
-  return {exponents_of(p.data()), unknowns, objective};
+  return {exponents, unknowns, objective};
 }
 
 Fit multi_load_fit(const cases::Material& material, double edge, const MultiLoadSettings& settings) {
   check(settings);
-  const bool is_incompressible = std::holds_alternative<cases::Ogden>(material);
-  const bool has_volume = settings.has_volume_term;
-  return {"multi-load design",
-          material,
-          edge,
-          settings,
-          has_volume && is_incompressible ? Part::deviator : Part::all,
-          has_volume && !is_incompressible};
-}
-
-/// Lambda of the lattice is C12 = C44 + k_v.
-MultiLoadFit with_volume_term(MultiLoadFit fit, const cases::Material& material, double edge,
-                              const MultiLoadSettings& settings) {
-  if (settings.has_volume_term && std::holds_alternative<cases::Ogden>(material))
-    fit.stiffness.volume = settings.incompressible_lambda - lattice_moduli(fit.stiffness, edge).c44;
-  return fit;
+  const bool holds_volume = settings.has_volume_term && std::holds_alternative<cases::Ogden>(material);
+  return {"multi-load design", material, edge, settings, holds_volume ? Part::deviator : Part::all};
 }
 
 } // namespace
@@ -277,8 +265,7 @@ MaterialState material_state(const cases::Material& material, LoadPath path, dou
 MultiLoadFit multi_load_method(const cases::Material& material, double edge,
                                const MultiLoadSettings& settings) {
   const Fit fit = multi_load_fit(material, edge, settings);
-  const MultiLoadFit found = fit.result(fit.best_unknowns(settings.exponents), settings.exponents);
-  return with_volume_term(found, material, edge, settings);
+  return fit.result(fit.best_unknowns(settings.exponents), settings.exponents);
 }
 
 MultiLoadFit multi_load_with_exponents(const cases::Material& material, double edge,
@@ -287,18 +274,14 @@ MultiLoadFit multi_load_with_exponents(const cases::Material& material, double e
   const bool is_ogden = std::holds_alternative<cases::Ogden>(material);
   const FittedExponents found =
       fit_exponents(fit, exponent, is_ogden ? lowest_ogden_exponent : lowest_exponent);
-  const auto result = [&](const Eigen::VectorXd& unknowns, const Exponents& p) {
-    return with_volume_term(fit.result(unknowns, p), material, edge, settings);
-  };
-  const MultiLoadFit fitted = result(found.unknowns, found.exponents);
+  const MultiLoadFit fitted = fit.result(found.unknowns, found.exponents);
   const auto is_stable = [&](const MultiLoadFit& of) {
     return is_stable_over({settings.lowest_strain, settings.highest_strain}, of.stiffness, edge);
   };
   const auto towards_hooke = [&](double part) {
     Exponents p = *fitted.stiffness.exponents;
-    for (double* of : {&p.edge, &p.face_diagonal, &p.internal_diagonal})
-      *of += part * (hookean_exponent - *of);
-    return result(fit.best_unknowns(p), p);
+    for (double& of : p.by_kind) of += part * (hookean_exponent - of);
+    return fit.result(fit.best_unknowns(p), p);
   };
   if (is_stable(fitted) || !is_stable(towards_hooke(1))) return fitted;
   double unstable = 0, stable = 1;
@@ -338,12 +321,9 @@ MatchedFit matched_exponents(const cases::Material& material, const mechanics::E
   const double nu = moduli.lambda / (2 * (moduli.lambda + moduli.mu));
   const double start = closed_form_exponent(second_order_coefficient(material, nu), moduli, split);
   const CellStiffness springs = hybrid_method(moduli.lambda, moduli.mu, split, cube(1));
-  MultiLoadSettings settings{};
-  settings.paths = {LoadPath::uniaxial, LoadPath::pure_shear};
-  settings.weights = {0.5, 0.5};
-  settings.lowest_strain = strain_range[0];
-  settings.highest_strain = strain_range[1];
-  const Fit fit("matched design", material, 1, settings, Part::deviator, false);
+  const MultiLoadSettings settings{
+      {LoadPath::uniaxial, LoadPath::pure_shear}, {0.5, 0.5}, strain_range[0], strain_range[1], false, 0};
+  const Fit fit("matched design", material, 1, settings, Part::deviator);
   const bool is_ogden = std::holds_alternative<cases::Ogden>(material);
   const FittedExponents found =
       fit_exponents(fit, start, is_ogden ? std::optional(lowest_ogden_exponent) : std::nullopt, springs);

@@ -1,14 +1,82 @@
-#include "msm/design/nonlinear_method.hpp"
-
 #include "cases/case/error.hpp"
 #include "msm/design/minimise.hpp"
+#include "msm/design/uniaxial.hpp"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 namespace springproof::msm {
+
+namespace {
+
+/// Left side minus right side of eq. 5.3, N/mm; x = Lx/L0, z = Lz/L0.
+template<class Number>
+Number lateral_imbalance(const Number* k, const Number& x, double z) {
+  using std::sqrt;
+  const Number face = sqrt(2.0) * x / sqrt(x * x + z * z);           // sqrt2 sin a
+  const Number internal = sqrt(3.0) * x / sqrt(2.0 * x * x + z * z); // sqrt6/2 sin b
+  return x * (k[0] + 2.0 * k[1] + k[2]) - (k[0] + (1.0 + face) * k[1] + internal * k[2]);
+}
+
+/// Its derivative with respect to x.
+double lateral_imbalance_slope(const double* k, double x, double z) {
+  using Jet = ceres::Jet<double, 1>;
+  const Jet constant[] = {Jet(k[0]), Jet(k[1]), Jet(k[2])};
+  return lateral_imbalance(constant, Jet(x, 0), z).v[0];
+}
+
+/// See the declaration.  @param k  N/mm
+template<class Number>
+Number axial_stress(const Number* k, const Number& x, double z, double edge) {
+  using std::sqrt;
+  const Number cos_face = z / sqrt(x * x + z * z);
+  const Number cos_internal = z / sqrt(2.0 * x * x + z * z);
+  const Number force_per_edge = z * (k[0] + 2.0 * k[1] + k[2]) -
+                                (k[0] + 2.0 * sqrt(2.0) * cos_face * k[1] + sqrt(3.0) * cos_internal * k[2]);
+  return 4.0 * force_per_edge / (edge * x * x);
+}
+
+} // namespace
+
+double lateral_stretch(const CellStiffness& stiffness, double stretch) {
+  const std::array<double, 3> springs = stiffness.springs();
+  const double* k = springs.data();
+  // The imbalance grows from below zero to above it; next to x = 0 it may vanish too, without edges and face
+  // diagonals.
+  double low = 1e-6, high = 4 * std::max(1.0, stretch);
+  if (!(lateral_imbalance(k, low, stretch) < 0 && lateral_imbalance(k, high, stretch) > 0))
+    throw cases::SolveError("uniaxial test of one cell: no width is in equilibrium with these stiffnesses");
+  double x = 1 / std::sqrt(stretch);
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const double imbalance = lateral_imbalance(k, x, stretch);
+    (imbalance < 0 ? low : high) = x;
+    double next = x - imbalance / lateral_imbalance_slope(k, x, stretch);
+    if (!(next > low && next < high)) next = (low + high) / 2;
+    if (std::abs(next - x) <= 1e-10 * x) return next; // it converges quadratically: this leaves round-off
+    x = next;
+  }
+  return x;
+}
+
+UniaxialCurve uniaxial_response(const CellStiffness& stiffness, double edge,
+                                const std::vector<double>& axial_strain) {
+  UniaxialCurve curve;
+  curve.axial_strain = axial_strain;
+  for (const double strain : axial_strain) {
+    const double z = std::exp(strain);
+    const double x = lateral_stretch(stiffness, z);
+    curve.stress.push_back(axial_stress(stiffness, x, z, edge));
+    curve.lateral_strain.push_back(std::log(x));
+  }
+  return curve;
+}
+
+double axial_stress(const CellStiffness& stiffness, double x, double z, double edge) {
+  return axial_stress(stiffness.springs().data(), x, z, edge);
+}
 
 namespace {
 
@@ -26,30 +94,25 @@ struct StrainResidual {
     using ceres::log;
     using std::log;
     const Number k[] = {unit * scaled[0], unit * scaled[1], unit * scaled[2]};
-    const double z = std::exp(strain);
-    const double x0 = width(k);
-    if (!(x0 > 0)) return false;
-    const Number guess(x0);
-    const Number x = guess - lateral_imbalance(k, guess, z) / lateral_imbalance_slope(k, guess, z);
+    const double values[] = {value(k[0]), value(k[1]), value(k[2])}, z = std::exp(strain);
+    double x0 = 0;
+    try {
+      x0 = lateral_stretch({values[0], values[1], values[2]}, z);
+    } catch (const cases::SolveError&) {
+      return false; // no value of the objective here, for Ceres
+    }
+    const Number guess(x0),
+        x = guess - lateral_imbalance(k, guess, z) / lateral_imbalance_slope(values, x0, z);
     residual[0] = (axial_stress(k, x, z, edge) - stress) / stress_norm;
     residual[1] = (log(x) - lateral) / lateral_norm;
     return true;
   }
 
  private:
-  template<class Number>
-  double width(const Number* k) const {
-    const auto value = [](const Number& number) {
-      if constexpr (std::is_same_v<Number, double>)
-        return number;
-      else
-        return number.a;
-    };
-    try {
-      return lateral_stretch({value(k[0]), value(k[1]), value(k[2]), 0}, std::exp(strain));
-    } catch (const cases::SolveError&) {
-      return 0; // no value of the objective here, for Ceres
-    }
+  static double value(double number) { return number; }
+  template<int n>
+  static double value(const ceres::Jet<double, n>& number) {
+    return number.a;
   }
 };
 

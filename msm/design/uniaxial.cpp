@@ -111,37 +111,4 @@ UniaxialCurve read_curve(const std::string& text, const std::string& name, const
   return curve;
 }
 
-double lateral_stretch(const CellStiffness& stiffness, double stretch) {
-  const double k[] = {stiffness.edge, stiffness.face_diagonal, stiffness.internal_diagonal};
-  // The imbalance grows from below zero to above it; next to x = 0 it may vanish too, without edges and face
-  // diagonals.
-  double low = 1e-6, high = 4 * std::max(1.0, stretch);
-  if (!(lateral_imbalance(k, low, stretch) < 0 && lateral_imbalance(k, high, stretch) > 0))
-    throw cases::SolveError("uniaxial test of one cell: no width is in equilibrium with these stiffnesses");
-  double x = 1 / std::sqrt(stretch);
-  for (int iteration = 0; iteration < 100; ++iteration) {
-    const double imbalance = lateral_imbalance(k, x, stretch);
-    (imbalance < 0 ? low : high) = x;
-    double next = x - imbalance / lateral_imbalance_slope(k, x, stretch);
-    if (!(next > low && next < high)) next = (low + high) / 2;
-    if (std::abs(next - x) <= 1e-10 * x) return next; // it converges quadratically: this leaves round-off
-    x = next;
-  }
-  return x;
-}
-
-UniaxialCurve uniaxial_response(const CellStiffness& stiffness, double edge,
-                                const std::vector<double>& axial_strain) {
-  const double k[] = {stiffness.edge, stiffness.face_diagonal, stiffness.internal_diagonal};
-  UniaxialCurve curve;
-  curve.axial_strain = axial_strain;
-  for (const double strain : axial_strain) {
-    const double z = std::exp(strain);
-    const double x = lateral_stretch(stiffness, z);
-    curve.stress.push_back(axial_stress(k, x, z, edge));
-    curve.lateral_strain.push_back(std::log(x));
-  }
-  return curve;
-}
-
 } // namespace springproof::msm

@@ -72,34 +72,36 @@ double lateral_stretch(const CellStiffness& stiffness, double stretch);
 UniaxialCurve uniaxial_response(const CellStiffness& stiffness, double edge,
                                 const std::vector<double>& axial_strain);
 
-/// Left side minus right side of eq. 5.3, N/mm; x = Lx/L0, z = Lz/L0.
-template<class Number>
-Number lateral_imbalance(const Number* k, const Number& x, double z) {
-  using std::sqrt;
-  const Number face = sqrt(2.0) * x / sqrt(x * x + z * z);           // sqrt2 sin a
-  const Number internal = sqrt(3.0) * x / sqrt(2.0 * x * x + z * z); // sqrt6/2 sin b
-  return x * (k[0] + 2.0 * k[1] + k[2]) - (k[0] + (1.0 + face) * k[1] + internal * k[2]);
-}
+/// Cauchy stress of the cell, 4 F_z/Lx² with F_z of eq. 5.4, MPa.  @param x, z  Lx/L0, Lz/L0
+double axial_stress(const CellStiffness& stiffness, double x, double z, double edge);
 
-/// Its derivative with respect to x.
-template<class Number>
-Number lateral_imbalance_slope(const Number* k, const Number& x, double z) {
-  using std::sqrt;
-  const Number face_length = sqrt(x * x + z * z), internal_length = sqrt(2.0 * x * x + z * z);
-  const Number face = sqrt(2.0) * z * z / (face_length * face_length * face_length);
-  const Number internal = sqrt(3.0) * z * z / (internal_length * internal_length * internal_length);
-  return k[0] + 2.0 * k[1] + k[2] - face * k[1] - internal * k[2];
-}
+/// Objective of the nonlinear method, dimensionless:
+///   phi = sum (s - s_ref)²/sum s_ref² + sum (e_x - e_x,ref)²/sum e_x,ref²  over the reference's strains.
+/// Source: thesis eq. 5.9.  @param edge  L0, mm
+double uniaxial_objective(const CellStiffness& stiffness, double edge, const UniaxialCurve& reference);
 
-/// Cauchy stress of the cell, 4 F_z/Lx² with F_z of eq. 5.4, MPa.  @param k  N/mm
-template<class Number>
-Number axial_stress(const Number* k, const Number& x, double z, double edge) {
-  using std::sqrt;
-  const Number cos_face = z / sqrt(x * x + z * z);
-  const Number cos_internal = z / sqrt(2.0 * x * x + z * z);
-  const Number force_per_edge = z * (k[0] + 2.0 * k[1] + k[2]) -
-                                (k[0] + 2.0 * sqrt(2.0) * cos_face * k[1] + sqrt(3.0) * cos_internal * k[2]);
-  return 4.0 * force_per_edge / (edge * x * x);
-}
+/// The objective's residuals (first the stresses, then the lateral strains; phi is their squared norm) and,
+/// unless null, their derivatives with respect to (k_e, k_f, k_d), a row each, mm/N.
+Eigen::VectorXd uniaxial_residuals(const CellStiffness& stiffness, double edge,
+                                   const UniaxialCurve& reference, Eigen::MatrixX3d* jacobian = nullptr);
+
+struct NonlinearFit {
+  CellStiffness stiffness;
+  double objective;                      ///< phi at the minimum
+  std::vector<CellStiffness> minimisers; ///< one per start; equal when the minimiser is unique
+};
+
+/// The nonlinear method: the k >= 0 that minimise phi, by Ceres's trust region from several starts.
+/// @throws InputError if a reference column is all zero    @throws SolveError if no start converges
+NonlinearFit nonlinear_method(const UniaxialCurve& reference, double edge);
+
+/// How well a uniaxial test tells the three stiffnesses apart: the Jacobian of the residuals with respect to
+/// (k_e, k_f, k_d)/(E L0) at a design, E the reference's initial slope.
+struct Identifiability {
+  Eigen::Vector3d singular_values; ///< descending
+  Eigen::Matrix3d directions;      ///< right singular vectors, columns: combinations of (k_e, k_f, k_d)
+  double condition;                ///< largest over smallest singular value
+};
+Identifiability identifiability(const CellStiffness& stiffness, double edge, const UniaxialCurve& reference);
 
 } // namespace springproof::msm

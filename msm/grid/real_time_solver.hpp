@@ -3,7 +3,7 @@
 #include "mechanics/grid/krylov.hpp"
 #include "msm/grid/node_vectors.hpp"
 #include "msm/grid/spring_levels.hpp"
-#include "msm/pull.hpp"
+#include "msm/moving_springs.hpp"
 
 namespace springproof::msm::grid {
 

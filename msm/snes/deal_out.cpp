@@ -1,7 +1,6 @@
-#include "msm/snes/deal_out.hpp"
-
 #include "cases/mesh/hex_mesh.hpp"
 #include "mechanics/petsc/handles.hpp"
+#include "msm/snes/snes.hpp"
 
 #include <utility>
 

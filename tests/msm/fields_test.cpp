@@ -1,9 +1,9 @@
-#include "msm/fields.hpp"
 
 #include "mechanics/field_sums.hpp"
-#include "msm/design/cell_at_rest.hpp"
+#include "msm/design/cells.hpp"
 #include "msm/model.hpp"
 #include "tests/support/bodies.hpp"
+#include "tests/support/closed_forms.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -54,7 +54,7 @@ cases::Fields affine(const cases::Scene& scene, const msm::CellStiffness& spring
 
 /// Stiffnesses that differ from axis to axis; tetrahedra; springs that are whole at the boundary.
 std::vector<msm::BodyTerms> bodies_of_terms() {
-  const msm::CellTerms by_axis = msm::terms_by_axis({0.02, 0.03, 0.05, 0.011, 0.013, 0.017, 0.019}, 0.14);
+  const msm::CellTerms by_axis = msm::terms_by_axis({{0.02, 0.03, 0.05, 0.011, 0.013, 0.017, 0.019}, 0.14});
   msm::CellTerms tetrahedra;
   const std::vector<std::array<int, 4>> five{
       {0, 1, 2, 4}, {3, 1, 2, 7}, {5, 1, 4, 7}, {6, 2, 4, 7}, {1, 2, 4, 7}};
@@ -83,7 +83,7 @@ TEST_CASE("a lattice under a uniform small strain has the stress of its moduli i
           "[verification]") {
   const cases::Scene scene = body();
   for (const msm::CellStiffness& springs : {bodies::thesis_cell, bodies::hybrid_cell, power_log_cell()}) {
-    const msm::LatticeModuli moduli = msm::lattice_moduli(springs, 1);
+    const msm::LatticeModuli moduli = closed::lattice_moduli(springs, 1);
     for (int pair = 0; pair < 6; ++pair) {
       const int i = pair < 3 ? pair : pair - 3, j = pair < 3 ? pair : (pair - 2) % 3;
       Matrix3d strain = Matrix3d::Zero();

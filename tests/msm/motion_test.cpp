@@ -1,4 +1,3 @@
-#include "msm/moving_body.hpp"
 
 #include "cases/case/error.hpp"
 #include "msm/direct/direct_system.hpp"

@@ -2,7 +2,7 @@
 
 #include "msm/direct/direct_system.hpp"
 #include "msm/grid/moving_grid.hpp"
-#include "msm/moving_body.hpp"
+#include "msm/model.hpp"
 
 #include <Eigen/Geometry>
 #include <memory>

@@ -1,6 +1,6 @@
-#include "msm/pull.hpp"
+#include "msm/moving_springs.hpp"
 
-#include "msm/moving_body.hpp"
+#include "msm/model.hpp"
 #include "tests/msm/moving_bodies.hpp"
 
 #include <Eigen/Cholesky>

@@ -4,7 +4,6 @@
 
 #include "msm/design/design.hpp"
 #include "msm/model.hpp"
-#include "msm/moving_body.hpp"
 #include "tests/support/bodies.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,6 @@
 #include "msm/tangent.hpp"
 
+#include "msm/design/small_strain.hpp"
 #include "tests/support/bodies.hpp"
 
 #include <Eigen/Dense>
@@ -24,25 +25,43 @@ VectorXd flat(const Points& points) {
   return Eigen::Map<const VectorXd>(points.front().data(), static_cast<Eigen::Index>(3 * points.size()));
 }
 
+/// Springs of a law, tetrahedra and a volume term.
+Lattice lattice_of_all_terms() {
+  cases::Grid grid = bodies::masked_grid();
+  std::vector<msm::CellTerms> kinds =
+      msm::van_gelder(cases::cell_vertices(cases::make_grid_mesh(grid), 0), 0.3);
+  const auto tetrahedra = msm::biquadratic(0.3, 0.1);
+  for (std::size_t kind = 0; kind < 2; ++kind) {
+    kinds[kind].tetrahedra = tetrahedra[kind].tetrahedra;
+    kinds[kind].volume = 0.14;
+    msm::set_exponents(kinds[kind], {-1.3, -2, 4.3});
+  }
+  return msm::make_lattice(cases::make_grid_mesh(grid), msm::BodyTerms{kinds, {0, 1, 1, 0}});
+}
+
 } // namespace
 
-TEST_CASE("the tangent of a lattice is minus the derivative of its internal force") {
-  const bool is_power_log = GENERATE(false, true);
+TEST_CASE(
+    "the force of a lattice is minus the gradient of its energy, the tangent minus the force's derivative") {
   const Lattice lattice =
-      bodies::masked_lattice(is_power_log ? std::optional(msm::Exponents{-1.3, -2, 4.3}) : std::nullopt);
-  const Points at = bodies::disturbed(lattice.rest, 0.2);
+      GENERATE(bodies::masked_lattice(), bodies::masked_lattice(msm::Exponents{-1.3, -2, 4.3}),
+               lattice_of_all_terms());
+  const Points at = bodies::disturbed(lattice.rest, 0.1);
+  const VectorXd force = flat(msm::internal_force(lattice, at));
   Tangent tangent(lattice, std::vector<bool>(3 * at.size(), false));
   const MatrixXd matrix = full(tangent.assemble(at, TransverseTerm::exact));
-  const double h = 1e-6; // mm; the central difference then errs by about 1e-12, its rounding by 1e-10
+  const double h = 1e-6; // mm; central differences err by about 1e-12, their rounding by 1e-10
   for (std::size_t p = 0; p < at.size(); ++p)
     for (int a = 0; a < 3; ++a) {
       Points before = at, after = at;
       before[p][a] -= h;
       after[p][a] += h;
+      const auto column = static_cast<Eigen::Index>(3 * p) + a;
+      CHECK(force[column] ==
+            Approx((msm::energy(lattice, before) - msm::energy(lattice, after)) / (2 * h)).margin(1e-9)); // N
       const VectorXd difference =
           (flat(msm::internal_force(lattice, after)) - flat(msm::internal_force(lattice, before))) / (2 * h);
-      const auto column = static_cast<Eigen::Index>(3 * p) + a;
-      CHECK((matrix.col(column) + difference).norm() < 1e-9); // N/mm, see h
+      CHECK((matrix.col(column) + difference).norm() < 1e-8); // N/mm
     }
 }
 
@@ -84,4 +103,13 @@ TEST_CASE("an unloaded lattice has the six rigid motions as its only motions wit
           .eigenvalues();
   CHECK(largest_entry(eigenvalues.head(6)) < 1e-14); // N/mm; rounding
   CHECK(eigenvalues[6] > 1e-3);                      // N/mm, against springs of 0.03
+}
+
+TEST_CASE("what a small motion of a lattice of any terms stores is half its quadratic form at rest") {
+  const msm::Lattice lattice = lattice_of_all_terms();
+  const double size = 1e-4; // mm; the energy's third order is 1e-4 of its second
+  const msm::Points motion =
+      bodies::disturbed(msm::Points(lattice.rest.size(), Eigen::Vector3d::Zero()), size);
+  CHECK(msm::small_motion_energy(lattice, motion) ==
+        Approx(msm::energy_at(lattice, motion)).epsilon(20 * size));
 }

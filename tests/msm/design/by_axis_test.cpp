@@ -1,6 +1,6 @@
 #include "msm/design/by_axis.hpp"
 
-#include "msm/design/cell_at_rest.hpp"
+#include "msm/design/cells.hpp"
 #include "msm/design/design.hpp"
 #include "msm/design/small_strain.hpp"
 #include "tests/support/largest.hpp"

@@ -1,7 +1,8 @@
-#include "msm/design/cell_at_rest.hpp"
+#include "msm/design/cells.hpp"
 
 #include "msm/design/design.hpp"
 #include "msm/tangent.hpp"
+#include "tests/support/closed_forms.hpp"
 #include "tests/support/largest.hpp"
 
 #include <catch2/catch.hpp>
@@ -66,7 +67,7 @@ TEST_CASE("every interior point of an affinely deformed lattice is in equilibriu
 
 TEST_CASE("the closed moduli are the assembled lattice's affine stiffness", "[verification]") {
   const double edge = 1.6;
-  const msm::LatticeModuli moduli = msm::lattice_moduli(with_volume, edge);
+  const msm::LatticeModuli moduli = closed::lattice_moduli(with_volume, edge);
   const double tolerance = 1e-12; // both exact: round-off of the sum over 64 cells
   CHECK(moduli.c11 ==
         Approx(modulus(with_volume, edge, strain(0, 0, 1), strain(0, 0, 1))).epsilon(tolerance));
@@ -78,7 +79,7 @@ TEST_CASE("the closed moduli are the assembled lattice's affine stiffness", "[ve
 
 TEST_CASE("closed moduli and the cell's affine response agree to round-off", "[verification]") {
   const double edge = 0.7;
-  const msm::LatticeModuli closed = msm::lattice_moduli(with_volume, edge);
+  const msm::LatticeModuli closed = closed::lattice_moduli(with_volume, edge);
   const msm::LatticeModuli affine = msm::averaged_moduli(msm::cell_elasticity(with_volume, msm::cube(edge)));
   const double tolerance = 1e-13; // the same finite sums in another order
   CHECK(affine.c11 == Approx(closed.c11).epsilon(tolerance));
@@ -87,7 +88,7 @@ TEST_CASE("closed moduli and the cell's affine response agree to round-off", "[v
 }
 
 TEST_CASE("without a volume term the lattice obeys the Cauchy relation C12 = C44") {
-  const msm::LatticeModuli moduli = msm::lattice_moduli({0.02, 0.05, 0.01, 0}, 2.0);
+  const msm::LatticeModuli moduli = closed::lattice_moduli({0.02, 0.05, 0.01, 0}, 2.0);
   CHECK(moduli.c12 == moduli.c44);
 }
 

@@ -1,4 +1,4 @@
-#include "msm/design/nonlinear_method.hpp"
+#include "msm/design/uniaxial.hpp"
 
 #include "cases/case/error.hpp"
 #include "msm/spring_body.hpp"

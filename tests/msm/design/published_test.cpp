@@ -1,9 +1,10 @@
-#include "msm/design/published.hpp"
+#include "msm/design/small_strain.hpp"
 
 #include "mechanics/elastic_moduli.hpp"
 #include "msm/design/design.hpp"
 #include "msm/model.hpp"
 #include "tests/support/bodies.hpp"
+#include "tests/support/closed_forms.hpp"
 #include "tests/support/linear_tetrahedron.hpp"
 
 #include <catch2/catch.hpp>
@@ -143,20 +144,20 @@ TEST_CASE("biquadratic springs are linear tetrahedral finite elements of St. Ven
 TEST_CASE("springs that others published have the moduli that they are published with", "[verification]") {
   const double edge = 1.3, exact = 1e-14; // closed forms
   SECTION("ladd_kinney: E and 1/4, isotropic") {
-    const msm::LatticeModuli moduli = msm::lattice_moduli(msm::ladd_kinney(soft_modulus, edge), edge);
+    const msm::LatticeModuli moduli = closed::lattice_moduli(msm::ladd_kinney(soft_modulus, edge), edge);
     CHECK(moduli.youngs_modulus == Approx(soft_modulus).epsilon(exact));
     CHECK(moduli.poissons_ratio == Approx(0.25).epsilon(exact));
     CHECK(moduli.zener == Approx(1).epsilon(exact));
   }
   SECTION("baudet: isotropic with E at 1/4, where nothing is corrected") {
-    const msm::LatticeModuli moduli = msm::lattice_moduli(msm::baudet(soft_modulus, 0.25, edge), edge);
+    const msm::LatticeModuli moduli = closed::lattice_moduli(msm::baudet(soft_modulus, 0.25, edge), edge);
     CHECK(moduli.youngs_modulus == Approx(soft_modulus).epsilon(exact));
     CHECK(moduli.zener == Approx(1).epsilon(exact));
     CHECK(msm::baudet(soft_modulus, 0.25, edge).face_diagonal == 0);
   }
   SECTION("uniform: E along the axes far from the boundary") {
     const double k = msm::uniform_stiffness(soft_modulus, edge);
-    CHECK(msm::lattice_moduli(msm::uniform_springs(k), edge).youngs_modulus ==
+    CHECK(closed::lattice_moduli(msm::uniform_springs(k), edge).youngs_modulus ==
           Approx(soft_modulus).epsilon(exact));
   }
 }

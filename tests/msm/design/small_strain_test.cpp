@@ -1,10 +1,11 @@
 #include "msm/design/small_strain.hpp"
 
 #include "cases/case/error.hpp"
+#include "msm/design/cells.hpp"
 #include "msm/design/design.hpp"
-#include "msm/design/homogeneous.hpp"
 #include "msm/tangent.hpp"
 #include "tests/support/bodies.hpp"
+#include "tests/support/closed_forms.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
@@ -83,7 +84,7 @@ TEST_CASE("no neighbouring stiffness set has a smaller residual") {
 }
 
 TEST_CASE("the pseudo-stiffness undoes k = (L0/2) k' E") {
-  const msm::CellStiffness pseudo = msm::pseudo_stiffness({0.3, 0.6, 0.9, 0}, 3, 0.2);
+  const msm::CellStiffness pseudo = closed::pseudo_stiffness({0.3, 0.6, 0.9, 0}, 3, 0.2);
   CHECK(pseudo.edge == Approx(1).epsilon(1e-15)); // one division
   CHECK(pseudo.face_diagonal == Approx(2).epsilon(1e-15));
   CHECK(pseudo.internal_diagonal == Approx(3).epsilon(1e-15));
@@ -108,7 +109,7 @@ TEST_CASE("the moduli method's lattice has the Young's and shear modulus asked f
   const double split = GENERATE(0.0, 0.3, 0.7, 1.0);
   const double shear = 0.3 / (2 * (1 + nu));
   const msm::LatticeModuli moduli =
-      msm::lattice_moduli(msm::moduli_method(0.3, shear, split, msm::cube(1.7)), 1.7);
+      closed::lattice_moduli(msm::moduli_method(0.3, shear, split, msm::cube(1.7)), 1.7);
   CHECK(moduli.youngs_modulus == Approx(0.3).epsilon(round_off));
   CHECK(moduli.shear_modulus == Approx(shear).epsilon(round_off));
 }

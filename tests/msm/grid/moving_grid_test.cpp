@@ -2,7 +2,7 @@
 
 #include "mechanics/dynamics/time_integrator.hpp"
 #include "msm/direct/direct_system.hpp"
-#include "msm/moving_body.hpp"
+#include "msm/model.hpp"
 #include "tests/msm/moving_bodies.hpp"
 #include "tests/support/largest.hpp"
 

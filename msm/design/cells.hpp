@@ -7,6 +7,10 @@
 
 /// Cells at rest: their stiffness, the moduli of the infinite lattice of such cells, and whether they can be
 /// trusted.
+///
+/// The infinite lattice of equal cubes under a homogeneous deformation gradient F: thirteen springs per node
+/// and the volume term. Every node is a centre of symmetry, so that an affine deformation is in equilibrium
+/// and the energy is a closed form.
 namespace springproof::msm {
 
 using CellVertices = CellPositions; ///< vertices of a cell at rest
@@ -48,13 +52,6 @@ struct LatticeModuli {
   double shear_modulus = 0;  ///< between lattice axes, C44
 };
 
-/// Moduli of the lattice of cubes. With assembled stiffnesses K_e = 4 k_e, K_f = 2 k_f, K_d = k_d:
-///   C11 = (K_e + 2 K_f + 4 K_d/3)/h + k_v,  C44 = (K_f + 4 K_d/3)/h,  C12 = C44 + k_v.
-/// Exact: an affine displacement leaves every point of the lattice in equilibrium, each being a centre of
-/// symmetry.
-/// @param edge  h, mm, > 0
-LatticeModuli lattice_moduli(const CellStiffness& stiffness, double edge);
-
 /// C11, C12 and C44 averaged over the three axes. Of cell_elasticity() they are exact for a parallelepiped,
 /// and where the points of the lattice are centres of symmetry, as those of the cut cells are; for another
 /// hexahedron they are the affine (Voigt) estimate.
@@ -88,5 +85,44 @@ constexpr double told_moduli_misfit = 0.05;
 
 /// @param lattice  MPa    @param material  MPa, positive definite
 ModuliMisfit moduli_misfit(const Elasticity& lattice, const Elasticity& material);
+
+/// Energy per rest volume, MPa:
+///   W = (1/h³) sum over the 13 springs of K/2 (|F d| - |d|)² + k_v/2 (det F - 1)²
+/// (or the power-log law's integrals),
+/// with assembled K_e = 4 k_e, K_f = 2 k_f, K_d = k_d.  @param edge  h, mm
+double lattice_energy_density(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f);
+
+/// First Piola-Kirchhoff stress dW/dF, MPa.
+Eigen::Matrix3d lattice_stress(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f);
+
+/// Simple shear of xz by an amount.
+Eigen::Matrix3d simple_shear(double amount);
+
+/// Smallest eigenvalue of the dynamical matrix D(q) divided by |q h|², N/mm, over wave vectors q of the first
+/// Brillouin zone. Positive: no small displacement of the infinite lattice, of any wavelength, lowers its
+/// energy.
+double smallest_wave_stiffness(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f);
+
+/// How far a homogeneous lattice can be deformed before some wave loses its stiffness.
+struct StabilityRange {
+  double stretch; ///< largest stable l of uniaxial stretch with free sides; the search's end when stable to
+                  ///< there
+  double compression; ///< smallest stable l
+  double shear;       ///< largest stable simple shear
+};
+
+/// The ends of the search, where a lattice counts as stable without limit.
+constexpr StabilityRange search_ends = {3.0, 0.3, 2.0};
+
+/// Found by walking along each path in steps of 2 % and bisecting the first step that is unstable, to 1e-4.
+StabilityRange stability_range(const CellStiffness& stiffness, double edge);
+
+/// Stretch of the sides at which they are free of stress, under an axial stretch along z.
+/// @throws SolveError when there is none
+double free_lateral_stretch(const CellStiffness& stiffness, double edge, double axial_stretch);
+
+/// Whether the infinite lattice has no unstable wave at either end of the strains, in uniaxial tests along an
+/// axis.
+bool is_stable_over(const std::array<double, 2>& strain_range, const CellStiffness& stiffness, double edge);
 
 } // namespace springproof::msm
