@@ -3,7 +3,7 @@
 #include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/app/design_options.hpp"
-#include "compare/modes/write_eigen.hpp"
+#include "compare/modes/modes.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
