@@ -2,7 +2,7 @@
 #include "cases/case/read_case.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/modes/write_eigen.hpp"
+#include "compare/modes/modes.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"

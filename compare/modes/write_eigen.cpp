@@ -1,4 +1,4 @@
-#include "compare/modes/write_eigen.hpp"
+#include "compare/modes/modes.hpp"
 
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"

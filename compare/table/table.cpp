@@ -61,11 +61,13 @@ Texts filled_texts(const Column& column, const Json& rows, bool is_left) {
   return texts;
 }
 
-/// The columns' texts. Those of the first column begin at the left.
+/// The columns' texts. Those of the first column begin at the left unless it has a format.
 std::vector<Texts> filled_columns(const Columns& columns, const Json& rows) {
   std::vector<Texts> all;
   for (const Column& column : columns)
-    all.push_back(filled_texts(column, rows, all.empty() || column.format.find('<') != std::string::npos));
+    all.push_back(
+        filled_texts(column, rows,
+                     (all.empty() && column.format.empty()) || column.format.find('<') != std::string::npos));
   return all;
 }
 

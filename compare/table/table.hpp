@@ -76,8 +76,8 @@ void write_json_file(const std::string& path, const Json& document);
 /// @param indent  blanks in front of the other lines
 void write_wrapped(std::ostream& out, const std::string& text, std::size_t indent);
 
-/// Rows under their headings. A column is as wide as its widest text. Texts of the first column begin at the
-/// left, those of others end at the right unless their format says "<".
+/// Rows under their headings. A column is as wide as its widest text. Texts of a first column without a
+/// format begin at the left, those of others end at the right unless their format says "<".
 /// @param rows  a list of objects: a number is written by its column's format, null as "-", truth as "yes" or
 ///              "no"
 void write_table(std::ostream& out, const Columns& columns, const Json& rows);

@@ -1,4 +1,4 @@
-#include "compare/thesis/entries.hpp"
+#include "compare/thesis/regenerate.hpp"
 
 #include "compare/solve/springs.hpp"
 

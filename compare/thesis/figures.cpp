@@ -2,7 +2,7 @@
 
 #include "cases/case/read_case.hpp"
 #include "compare/cube/write_design.hpp"
-#include "compare/modes/write_eigen.hpp"
+#include "compare/modes/modes.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/table/table.hpp"

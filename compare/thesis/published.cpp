@@ -1,4 +1,4 @@
-#include "compare/thesis/published.hpp"
+#include "compare/thesis/regenerate.hpp"
 
 #include "cases/case/error.hpp"
 #include "cases/case/input_file.hpp"

@@ -287,7 +287,8 @@ void write_advice_text(std::ostream& out, const std::vector<Advice>& advice) {
 
 void write_beyond(std::ostream& out, const SummaryGroup& group) {
   if (group.beyond.empty()) return;
-  fmt::print(out, "  {}: by neither within {:g} {}\n", group.name, group.listing_bound, group.unit);
+  fmt::print(out, "  {}: by neither within {:g}{}{}\n", group.name, group.listing_bound,
+             group.unit.empty() ? "" : " ", group.unit);
   for (const TableEntry* entry : group.beyond) {
     const PublishedFigure& p = entry->published;
     fmt::print(out, "    {} {}: published {:g};", p.table, name_of(p), p.value);

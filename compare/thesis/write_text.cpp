@@ -107,7 +107,7 @@ void write_advice_table(std::ostream& out, const std::vector<Advice>& advice) {
     differs = differs || by_default != &best;
   }
   write_table(out,
-              columns_of("nu{:g} use{:<} small=cube.0{:.1f} large=cube.1{:.1f} volume{:.1f} "
+              columns_of("nu{:<g} use{:<} small=cube.0{:.1f} large=cube.1{:.1f} volume{:.1f} "
                          "without~a~name=default{:<} small=other.0{:.1f} large=other.1{:.1f}"),
               rows);
   write_paragraph(

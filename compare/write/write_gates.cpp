@@ -123,23 +123,25 @@ void annotate(std::ostream& out, const char* level, const std::string& file, int
         in_annotation(title, in_property), in_annotation(message, in_message));
 }
 
-Json gate_to_json(const Comparison& judged, const Gate& gate) {
+Json gate_to_json(const Gate& gate) {
   const cases::Expectation& expected = gate.expectation;
-  return {{"case", judged.scene.definition.name},
-          {"file", judged.scene.definition.file},
-          {"line", expected.where.line},
-          {"reference", cases::name_of(expected.reference)},
-          {"measure", expected.measure},
-          {"quantity", cases::name_of(expected.quantity)},
-          {"unit", gate.unit},
-          {"interval", expected.interval},
-          {"interval_reason", expected.reason},
-          {"value", gate.value},
-          {"reference_uncertainty", gate.uncertainty},
-          {"met", gate.met()},
-          {"undecided", gate.is_undecided},
-          {"reason", reason_of(gate)},
-          {"warning", gate.warning}};
+  return {{"measure", expected.measure},   {"quantity", cases::name_of(expected.quantity)},
+          {"interval", expected.interval}, {"reference", cases::name_of(expected.reference)},
+          {"value", gate.value},           {"met", gate.met()},
+          {"judged", !gate.is_left_out},   {"undecided", gate.is_undecided},
+          {"reason", reason_of(gate)}};
+}
+
+Json gate_of_case_to_json(const Comparison& judged, const Gate& gate) {
+  Json row{{"case", judged.scene.definition.name},
+           {"file", judged.scene.definition.file},
+           {"line", gate.expectation.where.line}};
+  row.update(gate_to_json(gate));
+  row.update({{"unit", gate.unit},
+              {"interval_reason", gate.expectation.reason},
+              {"reference_uncertainty", gate.uncertainty},
+              {"warning", gate.warning}});
+  return row;
 }
 
 } // namespace
@@ -173,18 +175,7 @@ void write_expectations_text(std::ostream& out, const std::vector<Gate>& gates) 
 }
 
 Json expectations_to_json(const std::vector<Gate>& gates) {
-  Json all = Json::array();
-  for (const Gate& gate : gates)
-    all.push_back({{"measure", gate.expectation.measure},
-                   {"quantity", cases::name_of(gate.expectation.quantity)},
-                   {"interval", gate.expectation.interval},
-                   {"reference", cases::name_of(gate.expectation.reference)},
-                   {"value", gate.value},
-                   {"met", gate.met()},
-                   {"judged", !gate.is_left_out},
-                   {"undecided", gate.is_undecided},
-                   {"reason", reason_of(gate)}});
-  return all;
+  return json_list(gates, gate_to_json);
 }
 
 void write_gates_text(std::ostream& out, const std::vector<Comparison>& cases) {
@@ -226,7 +217,7 @@ Json gates_to_json(const std::vector<Comparison>& cases) {
   document["failures"] = Json::array();
   document["kinds"] = Json::object();
   for (const Comparison& judged : cases) {
-    for (const Gate& gate : judged.gates) document["gates"].push_back(gate_to_json(judged, gate));
+    for (const Gate& gate : judged.gates) document["gates"].push_back(gate_of_case_to_json(judged, gate));
     for (const std::string& failure : judged.failures())
       document["failures"].push_back({{"case", judged.scene.definition.name},
                                       {"file", judged.scene.definition.file},

@@ -1,7 +1,7 @@
 #include "compare/modes/modes.hpp"
 
 #include "compare/solve/springs.hpp"
-#include "compare/thesis/published.hpp"
+#include "compare/thesis/regenerate.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "tests/support/largest.hpp"
 

@@ -1,7 +1,6 @@
 #include "cases/case/error.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/modes/modes.hpp"
-#include "compare/modes/write_eigen.hpp"
 #include "compare/peers/calculix.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,7 +1,7 @@
 #include "compare/solve/springs.hpp"
 
 #include "cases/case/readers.hpp"
-#include "compare/thesis/published.hpp"
+#include "compare/thesis/regenerate.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/closed_forms.hpp"
 

@@ -1,7 +1,5 @@
 #include "compare/thesis/regenerate.hpp"
 
-#include "compare/thesis/entries.hpp"
-#include "compare/thesis/published.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
