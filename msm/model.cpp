@@ -1,7 +1,7 @@
 #include "msm/model.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/scene/in_time.hpp"
+#include "cases/scene/scene.hpp"
 #include "mechanics/field_sums.hpp"
 #include "msm/direct/direct_system.hpp"
 #include "msm/grid/moving_grid.hpp"

@@ -1,6 +1,6 @@
 #include "compare/table/table.hpp"
 
-#include "cases/case/rows.hpp"
+#include "cases/case/input_file.hpp"
 
 #include <algorithm>
 #include <fmt/ostream.h>
