@@ -215,10 +215,6 @@ Points force_of(const Lattice& lattice, const Points& rest, const Points& displa
   return force;
 }
 
-Points no_displacement(const Lattice& lattice) {
-  return Points(lattice.rest.size(), Vector3d::Zero());
-}
-
 /// Whether a spring is under no tension at rest; other terms never are.
 bool is_relaxed(const Link& link, const Positions<2>& rest) {
   const double length = (rest[1] - rest[0]).norm();
@@ -262,7 +258,7 @@ Points tangent_product(const Lattice& lattice, const Points& displacement, doubl
 } // namespace
 
 double energy(const Lattice& lattice, const Points& positions) {
-  return energy_of(lattice, positions, no_displacement(lattice));
+  return energy_of(lattice, positions, Points(positions.size(), Vector3d::Zero()));
 }
 
 double energy_at(const Lattice& lattice, const Points& displacement) {
@@ -280,7 +276,7 @@ double small_motion_energy(const Lattice& lattice, const Points& motion) {
 }
 
 Points internal_force(const Lattice& lattice, const Points& positions) {
-  return force_of(lattice, positions, no_displacement(lattice));
+  return force_of(lattice, positions, Points(positions.size(), Vector3d::Zero()));
 }
 
 Points internal_force_at(const Lattice& lattice, const Points& displacement) {

@@ -15,9 +15,9 @@ msm::DesignRequest design_request(const cases::Material& material, const msm::Ce
 cases::Scene with_design(cases::Scene scene, cases::Design design);
 
 /// The stiffnesses that a scene's [msm] block asks for. On a grid all cells of a material are alike; on
-/// another mesh every cell is designed for itself (linear_method, moduli, hybrid, matched, given), the
-/// result's own stiffness and moduli are those of the first cell, and its warnings count the cells they hold
-/// for.
+/// another mesh every cell is designed for itself (linear_method, moduli, hybrid, matched). Of several designs
+/// the result's own stiffness and moduli are those of the first cell, its misfit is the worst, and its
+/// warnings count the cells they hold for.
 /// @throws InputError when the method cannot serve the material or the mesh's cells
 msm::DesignResult design_for(const cases::Scene& scene);
 

@@ -98,12 +98,14 @@ std::optional<AxisStiffness> exact_by_axis(const CubicModuli& moduli, double spl
   if (!is_box(vertices)) return std::nullopt;
   const double largest_face = (l.prod() / l.array()).maxCoeff(), least = least_part * moduli.c44;
   // 4 k_e l_i²/V = c11 - c44 sum l_i²/l_j² + t c44 l_i⁴/largest face²
+  const auto without_part = [&](int axis) {
+    const auto [i, j] = axes_across(axis);
+    return moduli.c11 - moduli.c44 * squared[axis] * (1 / squared[i] + 1 / squared[j]);
+  };
   double part = split;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto [i, j] = axes_across(axis);
-    const double without = moduli.c11 - moduli.c44 * squared[axis] * (1 / squared[i] + 1 / squared[j]);
     const double by_part = moduli.c44 * std::pow(squared[axis] / largest_face, 2);
-    part = std::max(part, (least - without) / by_part);
+    part = std::max(part, (least - without_part(axis)) / by_part);
   }
   if (part > std::max(split, 1 - least_part)) return std::nullopt;
   const double d = part * moduli.c44 / (largest_face * largest_face);
@@ -112,9 +114,7 @@ std::optional<AxisStiffness> exact_by_axis(const CubicModuli& moduli, double spl
   for (int axis = 0; axis < 3; ++axis) {
     const auto [i, j] = axes_across(axis);
     const auto n = static_cast<std::size_t>(axis);
-    const double edges = moduli.c11 - moduli.c44 * squared[axis] * (1 / squared[i] + 1 / squared[j]) +
-                         d * squared[axis] * squared[axis];
-    result.springs[n] = edges * unit[n];
+    result.springs[n] = (without_part(axis) + d * squared[axis] * squared[axis]) * unit[n];
     result.springs[3 + n] = (moduli.c44 - d * squared[i] * squared[j]) * unit[3 + n];
   }
   result.springs[6] = part * moduli.c44 * unit[6];

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 
 namespace springproof::msm {
 
@@ -286,39 +285,45 @@ DesignResult from_given(const DesignRequest& request) {
            options.volume_stiffness}};
 }
 
-const std::map<cases::Design, DesignResult (*)(const DesignRequest&)> known_methods = {
-    {cases::Design::linear_method, from_linear_method},
-    {cases::Design::nonlinear_method,
-     [](const DesignRequest& r) {
-       const NonlinearFit fit = nonlinear_method(uniaxial_reference(r), required_cube_edge(r));
-       return DesignResult{fit.stiffness, fit.objective};
-     }},
-    {cases::Design::moduli, from_moduli_method},
-    {cases::Design::hybrid, from_hybrid_method},
-    {cases::Design::matched, from_matched_method},
-    {cases::Design::multi_load, from_multi_load},
-    {cases::Design::ladd_kinney,
-     [](const DesignRequest& r) {
-       return DesignResult{ladd_kinney(required_youngs_modulus(r), required_cube_edge(r))};
-     }},
-    {cases::Design::baudet, from_baudet},
-    {cases::Design::uniform, from_uniform},
-    {cases::Design::van_gelder,
-     [](const DesignRequest& r) { return of_terms(van_gelder(r.cell, required_youngs_modulus(r))); }},
-    {cases::Design::lloyd,
-     [](const DesignRequest& r) { return of_terms(lloyd(r.cell, required_youngs_modulus(r))); }},
-    {cases::Design::biquadratic,
-     [](const DesignRequest& r) {
-       const mechanics::ElasticModuli moduli = elastic_moduli(r);
-       return of_terms(biquadratic(moduli.lambda, moduli.mu));
-     }},
-    {cases::Design::transverse, from_transverse},
-    {cases::Design::given, from_given},
-    {cases::Design::network,
-     [](const DesignRequest& r) -> DesignResult {
-       refuse(r, "design = \"network\" has springs of a whole body, and no cell");
-     }},
-};
+DesignResult designed(const DesignRequest& r) {
+  using D = cases::Design;
+#pragma GCC diagnostic error "-Wswitch" // a design that is forgotten here must not compile
+  switch (r.options.design) {
+  case D::linear_method:
+    return from_linear_method(r);
+  case D::nonlinear_method: {
+    const NonlinearFit fit = nonlinear_method(uniaxial_reference(r), required_cube_edge(r));
+    return {fit.stiffness, fit.objective};
+  }
+  case D::moduli:
+    return from_moduli_method(r);
+  case D::hybrid:
+    return from_hybrid_method(r);
+  case D::matched:
+    return from_matched_method(r);
+  case D::multi_load:
+    return from_multi_load(r);
+  case D::ladd_kinney:
+    return {ladd_kinney(required_youngs_modulus(r), required_cube_edge(r))};
+  case D::baudet:
+    return from_baudet(r);
+  case D::uniform:
+    return from_uniform(r);
+  case D::van_gelder:
+    return of_terms(van_gelder(r.cell, required_youngs_modulus(r)));
+  case D::lloyd:
+    return of_terms(lloyd(r.cell, required_youngs_modulus(r)));
+  case D::biquadratic:
+    return of_terms(biquadratic(elastic_moduli(r).lambda, elastic_moduli(r).mu));
+  case D::transverse:
+    return from_transverse(r);
+  case D::given:
+    return from_given(r);
+  case D::network:
+    break;
+  }
+  refuse(r, "design = \"network\" has springs of a whole body, and no cell");
+}
 
 } // namespace
 
@@ -364,7 +369,7 @@ DesignResult design(const DesignRequest& request) {
     refuse(request, fmt::format("design = \"{}\": must be {} with this {} material", name_of(options.design),
                                 cases::designs_for(is_isotropic),
                                 is_isotropic ? "isotropic" : "transversely isotropic"));
-  DesignResult result = known_methods.at(options.design)(request);
+  DesignResult result = designed(request);
   if (const auto law = law_of(options)) result.stiffness.exponents = law;
   std::vector<CellTerms> kinds{terms_of(result.stiffness)};
   if (BodyTerms* terms = terms_in(result)) {

@@ -7,7 +7,7 @@
 #include <optional>
 
 /// Design: from a material to the stiffnesses of one cell. A method is a function, its line in design.cpp's
-/// table, and a row of cases/case/designs.cpp, which says what it is and what it takes.
+/// switch, and a row of cases/case/designs.cpp, which says what it is and what it takes.
 namespace springproof::msm {
 
 /// Input of a design method.
