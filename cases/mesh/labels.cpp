@@ -155,8 +155,7 @@ Centres centres_in_grid(int n_voxels, double spacing, int n_cells, double origin
   return centres;
 }
 
-} // namespace
-
+/// @throws std::runtime_error if it is no regular file
 VolumeBytes bytes_of_volume(const std::string& path) {
   constexpr int first_of_gzip = 0x1f;
   std::error_code absent;
@@ -170,11 +169,14 @@ VolumeBytes bytes_of_volume(const std::string& path) {
   return {bytes, most_compressed * bytes, !is_plain_tar};
 }
 
+/// Reads the picture of a body, at the body's scale.
 Volume read_scaled_volume(const Labels& labels, const VolumeBytes& bytes) {
   Volume volume = vtk().read_volume(labels.file.path, bytes);
   volume.spacing *= labels.scale;
   return volume;
 }
+
+} // namespace
 
 LabelGrid label_cells(const Volume& volume, const Labels& labels) {
   LabelGrid grid = empty_label_grid(volume, labels);

@@ -16,12 +16,6 @@ struct LabelGrid {
   Eigen::Vector3d size = Eigen::Vector3d::Zero(); ///< mm, the whole picture
 };
 
-/// @throws std::runtime_error if it is no regular file
-VolumeBytes bytes_of_volume(const std::string& path);
-
-/// Reads the picture of a body, at the body's scale.
-Volume read_scaled_volume(const Labels& labels, const VolumeBytes& bytes);
-
 /// The classes of the cells that cover a volume, or its crop: each cell takes the class that fills most of
 /// it. A voxel has the first class whose interval has its intensity; what lies outside of the volume or in
 /// no class is empty. Where two fill as much, a class wins over none, and the first one over the others.

@@ -7,34 +7,17 @@ namespace springproof::cases {
 
 using Eigen::Vector3d;
 
-namespace {
-
-/// Gives numbers to keys, in the order in which they are met.
-template<class Key>
-class Numbering {
- public:
-  /// @return the number of a key, and whether it is a new one
-  std::pair<int, bool> of(const Key& key) {
-    const auto [place, is_new] = numbers_.try_emplace(key, static_cast<int>(numbers_.size()));
-    return {place->second, is_new};
-  }
-
- private:
-  std::map<Key, int> numbers_;
-};
-
-} // namespace
-
 TriangleMesh joined(const Surface& surface) {
   TriangleMesh mesh;
-  Numbering<std::array<double, 3>> numbers;
+  std::map<std::array<double, 3>, int> numbers; // by place
   for (const auto& corners : surface) {
     std::array<int, 3> triangle;
     for (std::size_t c = 0; c < 3; ++c) {
       const Vector3d at = corners[c] + Vector3d::Zero(); // -0 is 0
-      const auto [number, is_new] = numbers.of({at.x(), at.y(), at.z()});
+      const auto [number, is_new] =
+          numbers.try_emplace({at.x(), at.y(), at.z()}, static_cast<int>(mesh.vertices.size()));
       if (is_new) mesh.vertices.push_back(at);
-      triangle[c] = number;
+      triangle[c] = number->second;
     }
     const auto& [a, b, c] = triangle;
     if (a != b && b != c && c != a) mesh.triangles.push_back(triangle);
@@ -44,13 +27,13 @@ TriangleMesh joined(const Surface& surface) {
 
 TriangleMesh triangles_of_faces(const HexMesh& mesh, const std::vector<std::array<int, 4>>& faces) {
   TriangleMesh outer;
-  Numbering<int> numbers; // nodes' numbers
+  std::map<int, int> numbers; // by node
   for (const std::array<int, 4>& face : faces) {
     std::array<int, 4> vertices;
     for (std::size_t v = 0; v < 4; ++v) {
-      const auto [number, is_new] = numbers.of(face[v]);
+      const auto [number, is_new] = numbers.try_emplace(face[v], static_cast<int>(outer.vertices.size()));
       if (is_new) outer.vertices.push_back(mesh.nodes[index(face[v])]);
-      vertices[v] = number;
+      vertices[v] = number->second;
     }
     outer.triangles.push_back({vertices[0], vertices[1], vertices[2]});
     outer.triangles.push_back({vertices[0], vertices[2], vertices[3]});

@@ -23,16 +23,6 @@ namespace springproof::cases {
 namespace {
 
 using Eigen::Vector3d;
-using DataSet = vtkSmartPointer<vtkDataSet>;
-
-template<class Reader>
-DataSet read_xml(const std::string& content) {
-  const vtkNew<Reader> reader;
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(content);
-  run(*reader);
-  return vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
-}
 
 DataSet read_legacy(const std::string& content) {
   if (content.size() > std::numeric_limits<int>::max()) refuse("a legacy file may have up to 2 GB");

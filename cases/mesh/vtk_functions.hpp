@@ -113,7 +113,7 @@ struct VtkFunctions {
   std::vector<std::size_t> (*nearest_points)(const std::vector<Eigen::Vector3d>& points,
                                              const std::vector<Eigen::Vector3d>& positions);
   /// Reads a file .nii, .nii.gz or .inv3.
-  /// @param bytes  bytes_of_volume(); compressed ones are inflated twice, to check them first
+  /// @param bytes  what the file can hold; a compressed one is inflated twice, to check it first
   Volume (*read_volume)(const std::string& path, const VolumeBytes& bytes);
   /// The triangles of a file .vtp's content.
   Surface (*read_polygons)(const std::string& content);

@@ -8,6 +8,7 @@
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
 #include <vtkNew.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
 class vtkAlgorithm;
@@ -26,6 +27,16 @@ void run(vtkAlgorithm& algorithm);
 
 /// The same for a reader that reads no more than what its file says about its content.
 void run_information(vtkAlgorithm& algorithm);
+
+using DataSet = vtkSmartPointer<vtkDataSet>;
+template<class Reader>
+DataSet read_xml(const std::string& content) {
+  const vtkNew<Reader> reader;
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(content);
+  run(*reader);
+  return vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+}
 
 PointCloud read_points(const std::string& content);
 CellCloud read_cells(const std::string& content, const HexMesh& mesh);

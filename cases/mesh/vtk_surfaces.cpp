@@ -89,11 +89,8 @@ double enclosed_volume(const Surface& surface) {
 } // namespace
 
 Surface read_polygons(const std::string& content) {
-  const vtkNew<vtkXMLPolyDataReader> reader;
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(content);
-  run(*reader);
-  vtkPolyData& data = *reader->GetOutput();
+  const DataSet data_set = read_xml<vtkXMLPolyDataReader>(content);
+  vtkPolyData& data = *vtkPolyData::SafeDownCast(data_set);
   check_points_exist(*data.GetPolys(), data.GetNumberOfPoints());
   check_points_exist(*data.GetStrips(), data.GetNumberOfPoints());
   const vtkNew<vtkTriangleFilter> triangles;

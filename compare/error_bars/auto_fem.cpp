@@ -4,7 +4,6 @@
 #include "cases/mesh/sharing.hpp"
 #include "compare/error_bars/convergence.hpp"
 #include "compare/measure/measure.hpp"
-#include "compare/measure/turns.hpp"
 #include "compare/solve/estimate.hpp"
 
 #include <Eigen/SVD>

@@ -56,6 +56,11 @@ bool is_confirmed(double power, double power_before) {
 const char* const unconfirmed = "an order that no second step confirms";
 const char* const turning = "the values oscillate";
 
+/// The highest order of an element's displacements, 2 or 4; a higher one that is observed is an accident.
+double formal_order(cases::Element element) {
+  return element == cases::Element::q2 || element == cases::Element::q2_p1 ? 4 : 2;
+}
+
 std::string accident(double power, double formal_order) {
   return fmt::format("an order of {:.1f}, which elements of order {:.0f} show by accident", std::log2(power),
                      formal_order);
@@ -93,10 +98,6 @@ MeshVerdict judge_refinement(const std::vector<double>& coarse_to_fine, double r
 double discretisation_error_percent(double value, const MeshLimit& limit) {
   constexpr double safety_factor = 1.25; // Roache's, for three meshes and more
   return 100 * safety_factor * std::abs((value - limit.extrapolated) / value);
-}
-
-double formal_order(cases::Element element) {
-  return element == cases::Element::q2 || element == cases::Element::q2_p1 ? 4 : 2;
 }
 
 std::variant<Limit, std::string> find_limit(const std::vector<double>& coarse_to_fine, double highest_order,

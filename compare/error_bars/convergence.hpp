@@ -45,9 +45,6 @@ struct Limit {
   bool turns = false;
 };
 
-/// The highest order of an element's displacements, 2 or 4; a higher one that is observed is an accident.
-double formal_order(cases::Element element);
-
 /// The limit of a sequence, or why none is approached. From three meshes that draw nearer to each other the
 /// extrapolated value, with Roache's factor of 1.25 times its distance to the finest value once the mesh
 /// before shows the same order to within 0.3, and of 3 as long as the order is not confirmed (Oberkampf and

@@ -124,6 +124,35 @@ std::vector<std::string> write_csv_files(const std::string& folder, const msm::P
   return said;
 }
 
+/// Finds every link's kind among the springs of the mesh's cells: 1 an edge, 2 a face diagonal, 3 an internal
+/// diagonal; 0 for a link of a network that is none of these.
+std::vector<int> kinds_of_links(const cases::HexMesh& mesh, const std::vector<msm::Link>& links) {
+  struct Pair {
+    int i, j, kind;
+    bool operator<(const Pair& other) const { return std::tie(i, j) < std::tie(other.i, other.j); }
+  };
+  std::vector<Pair> pairs;
+  const auto add = [&](const std::array<int, 8>& cell, const auto& of_kind, int kind) {
+    for (const auto& vertices : of_kind) {
+      const auto [i, j] = cases::sorted(cases::pick(cell, vertices));
+      pairs.push_back({i, j, kind});
+    }
+  };
+  for (const std::array<int, 8>& cell : mesh.cells) {
+    add(cell, cases::cell_edges, 1);
+    add(cell, cases::cell_face_diagonals, 2);
+    add(cell, cases::cell_internal_diagonals, 3);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<int> kinds;
+  for (const msm::Link& link : links) {
+    const Pair wanted{link.i, link.j, 0};
+    const auto found = std::lower_bound(pairs.begin(), pairs.end(), wanted);
+    kinds.push_back(found != pairs.end() && !(wanted < *found) ? found->kind : 0);
+  }
+  return kinds;
+}
+
 std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Problem& problem) {
   const msm::Lattice& lattice = problem.lattice;
   SpringLines lines;
@@ -215,33 +244,6 @@ std::vector<std::string> export_springs(const std::string& folder, ExportTarget 
         "not in it: masses, damping, steps and histories of [dynamics] (--to sofa writes them); "
         "loads and motions are those at a factor of 1");
   return said;
-}
-
-std::vector<int> kinds_of_links(const cases::HexMesh& mesh, const std::vector<msm::Link>& links) {
-  struct Pair {
-    int i, j, kind;
-    bool operator<(const Pair& other) const { return std::tie(i, j) < std::tie(other.i, other.j); }
-  };
-  std::vector<Pair> pairs;
-  const auto add = [&](const std::array<int, 8>& cell, const auto& of_kind, int kind) {
-    for (const auto& vertices : of_kind) {
-      const auto [i, j] = cases::sorted(cases::pick(cell, vertices));
-      pairs.push_back({i, j, kind});
-    }
-  };
-  for (const std::array<int, 8>& cell : mesh.cells) {
-    add(cell, cases::cell_edges, 1);
-    add(cell, cases::cell_face_diagonals, 2);
-    add(cell, cases::cell_internal_diagonals, 3);
-  }
-  std::sort(pairs.begin(), pairs.end());
-  std::vector<int> kinds;
-  for (const msm::Link& link : links) {
-    const Pair wanted{link.i, link.j, 0};
-    const auto found = std::lower_bound(pairs.begin(), pairs.end(), wanted);
-    kinds.push_back(found != pairs.end() && !(wanted < *found) ? found->kind : 0);
-  }
-  return kinds;
 }
 
 } // namespace springproof::compare

@@ -49,10 +49,6 @@ std::vector<int> constrained(const msm::Problem& problem, std::size_t node);
 /// Prescribed displacements at full load, mm.
 msm::Points prescribed(const msm::Problem& problem);
 
-/// Finds every link's kind among the springs of the mesh's cells: 1 an edge, 2 a face diagonal, 3 an internal
-/// diagonal; 0 for a link of a network that is none of these.
-std::vector<int> kinds_of_links(const cases::HexMesh& mesh, const std::vector<msm::Link>& links);
-
 /// What a motion has that SOFA's components do not do as our steps do.
 std::vector<std::string> inexpressible_in_sofa(const ExportedMotion& motion);
 

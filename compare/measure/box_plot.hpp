@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -15,10 +18,34 @@ struct BoxPlot {
 
 /// Quantile p of n sorted values lies at position p n + 1/2, counted from 1, linearly interpolated (Hyndman
 /// and Fan's fifth rule, that of the program that drew the thesis's figures).
+inline double quantile(const std::vector<double>& sorted, double p) {
+  const double last = static_cast<double>(sorted.size() - 1);
+  const double position = std::clamp(p * static_cast<double>(sorted.size()) - 0.5, 0.0, last);
+  const std::size_t below = static_cast<std::size_t>(std::floor(position));
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (position - std::floor(position)) * (sorted[above] - sorted[below]);
+}
+
 /// @param values  at least one, all finite, in any order
-BoxPlot box_plot(std::vector<double> values);
+inline BoxPlot box_plot(std::vector<double> values) {
+  assert(!values.empty());
+  std::sort(values.begin(), values.end());
+  BoxPlot box{quantile(values, 0.25), quantile(values, 0.5), quantile(values, 0.75), 0, 0, {}};
+  const double reach = 1.5 * (box.upper_quartile - box.lower_quartile);
+  const auto first = std::find_if(values.begin(), values.end(),
+                                  [&](double value) { return value >= box.lower_quartile - reach; });
+  const auto end =
+      std::find_if(first, values.end(), [&](double value) { return value > box.upper_quartile + reach; });
+  box.lower_whisker = *first;
+  box.upper_whisker = *(end - 1);
+  box.outliers.assign(values.begin(), first);
+  box.outliers.insert(box.outliers.end(), end, values.end());
+  return box;
+}
 
 /// Nothing without values.
-std::optional<double> median(const std::vector<double>& values);
+inline std::optional<double> median(const std::vector<double>& values) {
+  return values.empty() ? std::nullopt : std::optional(box_plot(values).median);
+}
 
 } // namespace springproof::compare

@@ -2,7 +2,6 @@
 
 #include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/sharing.hpp"
-#include "compare/measure/turns.hpp"
 #include "mechanics/hexahedron.hpp"
 #include "mechanics/larger.hpp"
 

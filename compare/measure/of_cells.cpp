@@ -23,28 +23,6 @@ Eigen::Matrix3d matrix_of(const cases::SymmetricTensor& t) {
   return matrix;
 }
 
-/// Whether a cell has a face in the measure's region; all of them where it has none.
-class CellsOfRegion {
- public:
-  CellsOfRegion(const cases::measures::OfCells& measure, const cases::HexMesh& mesh)
-      : mesh_(mesh), is_whole_(!measure.has_region()) {
-    if (is_whole_) return;
-    for (const auto& face : cases::select(mesh, measure.region).faces) faces_.insert(cases::sorted(face));
-  }
-  bool has(std::size_t cell) const {
-    if (is_whole_) return true;
-    const std::array<int, 8> vertices = mesh_.cells[cell];
-    return std::any_of(cases::cell_faces.begin(), cases::cell_faces.end(), [&](const auto& face) {
-      return faces_.count(cases::sorted(cases::pick(vertices, face))) > 0;
-    });
-  }
-
- private:
-  const cases::HexMesh& mesh_;
-  bool is_whole_;
-  std::set<std::array<int, 4>> faces_;
-};
-
 double curvature(const Vector3d& before, const Vector3d& here, const Vector3d& after) {
   const Vector3d a = here - before, b = after - here, c = after - before;
   return 2 * a.cross(b).norm() / (a.norm() * b.norm() * c.norm()); // A is half the cross product
@@ -72,14 +50,24 @@ double component_of(const cases::SymmetricTensor& tensor, cases::TensorComponent
 
 double of_region(const cases::measures::OfCells& measure, const cases::Scene& scene,
                  const cases::Solution& solution, const std::vector<cases::SymmetricTensor>& of_cells) {
-  const CellsOfRegion region(measure, scene.mesh);
+  std::set<std::array<int, 4>> faces; // of the region
+  if (measure.has_region())
+    for (const auto& face : cases::select(scene.mesh, measure.region).faces)
+      faces.insert(cases::sorted(face));
+  const auto is_counted = [&](std::size_t cell) {
+    const std::array<int, 8> vertices = scene.mesh.cells[cell];
+    return !measure.has_region() ||
+           std::any_of(cases::cell_faces.begin(), cases::cell_faces.end(), [&](const auto& face) {
+             return faces.count(cases::sorted(cases::pick(vertices, face))) > 0;
+           });
+  };
   const cases::Sharing* const sharing = solution.sharing.get();
   const cases::Range here = cases::share_here(scene.mesh, sharing).cells;
   const auto all = [&](double of_this_rank) { return sharing ? sharing->sum(of_this_rank) : of_this_rank; };
   std::vector<double> values, weights;
   double largest = -std::numeric_limits<double>::infinity(), sum = 0, weight = 0;
   for (std::size_t c = here.begin; c < here.end; ++c) {
-    if (!region.has(c)) continue;
+    if (!is_counted(c)) continue;
     values.push_back(component_of(of_cells[c - here.begin], measure.component));
     weights.push_back(cases::cell_volume(cases::cell_vertices(scene.mesh, c)));
     largest = mechanics::larger(largest, values.back());

@@ -25,23 +25,16 @@ Extreme vertex(const TimeSeries& series, std::size_t i) {
   return {t + at, value + (slope + curvature * at) * at};
 }
 
-struct StraightLine {
-  double start, slope;
-};
-
-/// Least squares through values at 0, 1, 2, ...; at least two.
-StraightLine line_through(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  double mean = 0, moment = 0, inertia = 0;
-  const double centre = (n - 1) / 2;
+/// Slope of the straight line, by least squares, through values at 0, 1, 2, ...; at least two.
+double slope_of(const std::vector<double>& values) {
+  double moment = 0, inertia = 0;
+  const double centre = (static_cast<double>(values.size()) - 1) / 2;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double arm = static_cast<double>(i) - centre;
-    mean += values[i] / n;
     moment += arm * values[i];
     inertia += arm * arm;
   }
-  const double slope = moment / inertia;
-  return {mean - slope * centre, slope};
+  return moment / inertia;
 }
 
 double root_mean_square(const std::vector<double>& time, const std::vector<double>& value) {
@@ -116,11 +109,11 @@ std::optional<Swings> swings_of(const TimeSeries& series) {
     times.push_back(all[k].time);
     if (k > 0) ways.push_back(std::log(std::abs(all[k].value - all[k - 1].value)));
   }
-  const double half_period = line_through(times).slope;
+  const double half_period = slope_of(times);
   const double step =
       (series.time.back() - series.time.front()) / static_cast<double>(series.time.size() - 1);
   if (half_period < 2 * step) return std::nullopt;
-  const double decrement = -line_through(ways).slope; // decay in half a swing: pi zeta / sqrt(1 - zeta²)
+  const double decrement = -slope_of(ways); // decay in half a swing: pi zeta / sqrt(1 - zeta²)
   const double ratio = decrement / M_PI;
   const double left = std::exp(-decrement); // size ratio of successive extremes, on opposite sides
   const double last = all.back().value, before = all[all.size() - 2].value;

@@ -1,4 +1,4 @@
-#include "compare/measure/turns.hpp"
+#include "compare/measure/measure.hpp"
 
 #include "cases/mesh/sharing.hpp"
 #include "mechanics/hexahedron.hpp"

@@ -1,5 +1,3 @@
-#include "compare/measure/turns.hpp"
-
 #include "cases/case/read_case.hpp"
 #include "compare/gates/comparison.hpp"
 #include "compare/measure/measure.hpp"
