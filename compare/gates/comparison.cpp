@@ -129,10 +129,9 @@ std::string warning_of(const Gate& gate) {
   return "";
 }
 
-} // namespace
-
-Gate judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures) {
-  const MeasuredValue* found = find_named(measures, expectation.measure);
+/// Judges by what was measured alone. The finite elements' value of a converged reference is their limit.
+/// @param found  what was measured; null: there is no such measure
+Gate judge(const cases::Expectation& expectation, const MeasuredValue* found) {
   if (!found) return {expectation, std::nullopt, "there is no such measure"};
   const std::optional<double> value = value_of(expectation, *found);
   if (!value) return {expectation, value, "it has no value: a side failed or was not solved"};
@@ -142,6 +141,8 @@ Gate judge(const cases::Expectation& expectation, const std::vector<MeasuredValu
   return {expectation, value, fmt::format("{:.6g} is outside [{:.6g}, {:.6g}]", *value, lower, upper)};
 }
 
+} // namespace
+
 std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
                         const std::vector<MeasuredValue>& measures, const MeshStudy* study) {
   std::vector<Gate> gates;
@@ -149,7 +150,7 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
     const cases::Measure* measure = find_named(scene.definition.measures, expected.measure);
     const MeasuredValue* measured = find_named(measures, expected.measure);
     const StudiedMeasure* studied = study ? find_named(study->measures, expected.measure) : nullptr;
-    Gate gate = judge(expected, measures);
+    Gate gate = judge(expected, measured);
     const std::string unit = measure ? unit_of(*measure) : measured ? measured->unit : "";
     gate.unit = expected.quantity == Quantity::error_percent ? "%" : unit;
     if (!gate.met() && !gate.value && measured) explain(gate, answers, *measured);

@@ -28,10 +28,6 @@ struct Gate {
   bool met() const { return missed.empty(); }
 };
 
-/// Judges by what was measured alone. The finite elements' value of a converged reference is their limit.
-/// @param measures  measures of the same case
-Gate judge(const cases::Expectation& expectation, const std::vector<MeasuredValue>& measures);
-
 /// Judges every expectation of a case by what was measured.
 /// @param study  null: there is none
 std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
