@@ -48,12 +48,9 @@ struct Solution {
 /// A copy of vectors of so many numbers, a row of an array each.
 template<class Number, std::size_t width, class Vectors>
 py::array_t<Number> rows(const Vectors& vectors) {
-  const auto n = static_cast<py::ssize_t>(vectors.size());
-  py::array_t<Number> array({n, static_cast<py::ssize_t>(width)});
-  auto values = array.template mutable_unchecked<2>();
-  for (py::ssize_t i = 0; i < n; ++i)
-    for (py::ssize_t j = 0; j < static_cast<py::ssize_t>(width); ++j)
-      values(i, j) = vectors[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  py::array_t<Number> array({vectors.size(), width});
+  Number* to = array.mutable_data();
+  for (const auto& vector : vectors) to = std::copy_n(vector.data(), width, to);
   return array;
 }
 
@@ -103,8 +100,8 @@ const cases::Trajectory& trajectory_of(const Solution& solution) {
 
 py::array bodies_of(const Solution& solution) {
   const cases::Trajectory& trajectory = trajectory_of(solution);
-  const std::size_t n_bodies = trajectory.bodies.size(), n_nodes = solution.solution().displacement.size();
-  py::array_t<double> array({n_bodies, n_nodes, std::size_t{3}});
+  py::array_t<double> array(
+      {trajectory.bodies.size(), solution.solution().displacement.size(), std::size_t{3}});
   double* to = array.mutable_data();
   for (const auto& body : trajectory.bodies)
     for (const Eigen::Vector3d& u : body.displacement) to = std::copy(u.data(), u.data() + 3, to);
@@ -278,76 +275,66 @@ PYBIND11_MODULE(_springproof, module) {
   module.def("read_case", read_scene);
   module.def("design", design_text);
 
-  using Self = const py::object&; // arrays keep it alive
-  const auto of = [](Self self) -> const Solution& { return self.cast<const Solution&>(); };
-  py::class_<Solution, std::shared_ptr<Solution>>(
+  py::class_<Solution, std::shared_ptr<Solution>> type(
       module, "Solution",
       "One model's equilibrium, on the nodes and cells of the case's mesh; of a case with [dynamics] its "
-      "motion, and the rest is of the end. Arrays cannot be written to: copy() them.")
-      .def("__repr__", [](const Solution& s) { return shown(s); })
-      .def_property_readonly(
-          "case", [](const Solution& s) { return std::const_pointer_cast<cases::Scene>(s.scene); },
-          "the Case that was solved")
-      .def_property_readonly(
-          "side", [](const Solution& s) { return cases::name_of(s.side); }, "\"msm\" or \"fem\"")
-      .def_property_readonly(
-          "displacement", [of](Self self) { return view(self, of(self).solution().displacement); },
-          "mm, a row per node")
-      .def_property_readonly(
-          "reaction", [of](Self self) { return view(self, fields_of(of(self)).reaction); },
-          "force of the supports on the body, N, a row per node")
-      .def_property_readonly(
-          "cell_volume", [of](Self self) { return view(self, of(self).solution().cell_volume); },
-          "deformed, mm3")
-      .def_property_readonly(
-          "stress", [of](Self self) { return view(self, fields_of_cells(of(self)).stress); },
-          "mean Cauchy stress of each cell, MPa: xx, yy, zz, xy, yz, xz")
-      .def_property_readonly(
-          "strain", [of](Self self) { return view(self, fields_of(of(self)).strain); },
-          "logarithmic strain of each cell, the linear one of small_strain elements: "
-          "xx, yy, zz, xy, yz, xz")
-      .def_property_readonly(
-          "strain_energy", [](const Solution& s) { return fields_of(s).total_energy; },
-          "of the whole body, N mm")
-      .def_property_readonly(
-          "times", [of](Self self) { return view(self, trajectory_of(of(self)).time); },
-          "of a motion: the start and the end of every step, s")
-      .def_property_readonly(
-          "watched_nodes",
-          [](const Solution& s) { return py::array_t<int>(py::cast(trajectory_of(s).nodes)); },
-          "of a motion: the nodes that its measures read, in the order of `trajectory`")
-      .def_property_readonly(
-          "trajectory",
-          [of](Self self) {
-            const cases::Trajectory& t = trajectory_of(of(self));
-            return view(
-                self, t.displacement,
-                {static_cast<py::ssize_t>(t.time.size()), static_cast<py::ssize_t>(t.nodes.size()), 3});
-          },
-          "of a motion: displacements of the watched nodes, mm, (times, watched nodes, 3)")
-      .def_property_readonly(
-          "volumes", [of](Self self) { return view(self, trajectory_of(of(self)).volume); },
-          "of a motion: the body's volume at every time, mm3; empty unless a measure is of it")
-      .def_property_readonly("body_times", body_times_of,
-                             "of a motion: times of `bodies`, s: every dynamics.write_every steps")
-      .def_property_readonly(
-          "bodies", bodies_of,
-          "of a motion: displacements of all nodes now and then, mm, (body_times, nodes, 3)")
-      .def_property_readonly(
-          "outcome", [](const Solution& s) { return cases::name_of(s.solution().outcome); },
-          "\"stable equilibrium\", \"unstable equilibrium\" or \"unknown\"")
-      .def_property_readonly(
-          "inverted_cells", [](const Solution& s) { return s.solution().inverted_cells; }, "how many")
-      .def_property_readonly("warnings", warnings_of,
-                             "what the program prints of it; solve() has warned of them")
-      .def_property_readonly(
-          "choices", [](const Solution& s) { return s.comparison.answers.choices; },
-          "what \"auto\" in [fem] was taken to mean, with the reasons")
-      .def_property_readonly("unknowns", [](const Solution& s) { return s.solution().unknowns; })
-      .def_property_readonly("residual", [](const Solution& s) { return s.solution().residual; })
-      .def_property_readonly("newton_iterations",
-                             [](const Solution& s) { return s.solution().newton_iterations; })
-      .def_property_readonly("seconds", [](const Solution& s) { return s.answer().seconds(); });
+      "motion, and the rest is of the end. Arrays cannot be written to: copy() them.");
+  type.def("__repr__", [](const Solution& s) { return shown(s); });
+  const auto value = [&](const char* name, const char* text, auto get) {
+    type.def_property_readonly(name, get, text);
+  };
+  // The numbers of the solution themselves, which the array keeps alive.
+  const auto array = [&](const char* name, const char* text, auto get) {
+    value(name, text,
+          [get](const py::object& self) { return view(self, get(self.cast<const Solution&>())); });
+  };
+  value("case", "the Case that was solved",
+        [](const Solution& s) { return std::const_pointer_cast<cases::Scene>(s.scene); });
+  value("side", "\"msm\" or \"fem\"", [](const Solution& s) { return cases::name_of(s.side); });
+  array(
+      "displacement", "mm, a row per node",
+      [](const Solution& s) -> auto& { return s.solution().displacement; });
+  array(
+      "reaction", "force of the supports on the body, N, a row per node",
+      [](const Solution& s) -> auto& { return fields_of(s).reaction; });
+  array(
+      "cell_volume", "deformed, mm3", [](const Solution& s) -> auto& { return s.solution().cell_volume; });
+  array(
+      "stress", "mean Cauchy stress of each cell, MPa: xx, yy, zz, xy, yz, xz",
+      [](const Solution& s) -> auto& { return fields_of_cells(s).stress; });
+  array(
+      "strain",
+      "logarithmic strain of each cell, the linear one of small_strain elements: xx, yy, zz, xy, yz, xz",
+      [](const Solution& s) -> auto& { return fields_of(s).strain; });
+  value("strain_energy", "of the whole body, N mm",
+        [](const Solution& s) { return fields_of(s).total_energy; });
+  array(
+      "times", "of a motion: the start and the end of every step, s",
+      [](const Solution& s) -> auto& { return trajectory_of(s).time; });
+  value("watched_nodes", "of a motion: the nodes that its measures read, in the order of `trajectory`",
+        [](const Solution& s) { return py::array_t<int>(py::cast(trajectory_of(s).nodes)); });
+  value("trajectory", "of a motion: displacements of the watched nodes, mm, (times, watched nodes, 3)",
+        [](const py::object& self) {
+          const cases::Trajectory& t = trajectory_of(self.cast<const Solution&>());
+          const auto n_times = static_cast<py::ssize_t>(t.time.size());
+          return view(self, t.displacement, {n_times, static_cast<py::ssize_t>(t.nodes.size()), 3});
+        });
+  array(
+      "volumes", "of a motion: the body's volume at every time, mm3; empty unless a measure is of it",
+      [](const Solution& s) -> auto& { return trajectory_of(s).volume; });
+  value("body_times", "of a motion: times of `bodies`, s: every dynamics.write_every steps", body_times_of);
+  value("bodies", "of a motion: displacements of all nodes now and then, mm, (body_times, nodes, 3)",
+        bodies_of);
+  value("outcome", "\"stable equilibrium\", \"unstable equilibrium\" or \"unknown\"",
+        [](const Solution& s) { return cases::name_of(s.solution().outcome); });
+  value("inverted_cells", "how many", [](const Solution& s) { return s.solution().inverted_cells; });
+  value("warnings", "what the program prints of it; solve() has warned of them", warnings_of);
+  value("choices", "what \"auto\" in [fem] was taken to mean, with the reasons",
+        [](const Solution& s) { return s.comparison.answers.choices; });
+  value("unknowns", nullptr, [](const Solution& s) { return s.solution().unknowns; });
+  value("residual", nullptr, [](const Solution& s) { return s.solution().residual; });
+  value("newton_iterations", nullptr, [](const Solution& s) { return s.solution().newton_iterations; });
+  value("seconds", nullptr, [](const Solution& s) { return s.answer().seconds(); });
 
   py::class_<cases::Scene, std::shared_ptr<cases::Scene>>(
       module, "Case", "A case file, with its mesh built and its regions found.")
