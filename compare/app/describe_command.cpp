@@ -1,5 +1,6 @@
 #include "compare/app/commands.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/write/quote.hpp"
 
 #include <fmt/format.h>
 #include <iostream>
@@ -50,10 +51,8 @@ std::string placeholder(const CLI::Option& option) {
 
 /// Text in roff, none of whose characters is a command's.
 std::string in_roff(const std::string& text) {
-  std::string escaped;
-  for (const char c : text)
-    escaped += c == '\\' ? "\\e" : c == '-' ? "\\-" : c == '\'' ? "\\(aq" : std::string(1, c);
-  return escaped.rfind('.', 0) == 0 ? "\\&" + escaped : escaped;
+  return (text.rfind('.', 0) == 0 ? "\\&" : "") +
+         escaped(text, {{'\\', "\\e"}, {'-', "\\-"}, {'\'', "\\(aq"}});
 }
 
 void write_options(std::ostream& out, const CLI::App& command) {

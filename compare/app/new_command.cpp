@@ -4,6 +4,7 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <filesystem>
 #include <iostream>
 
@@ -17,16 +18,6 @@ struct NewOptions {
   std::string name;
   std::string template_name = "box";
 };
-
-const std::string placeholder = "TEMPLATE"; ///< for the case's name in templates
-
-/// The template's text, about a case of another name.
-std::string filled(const fs::path& file, const std::string& name) {
-  std::string text = read_file(file);
-  for (std::size_t at = 0; (at = text.find(placeholder, at)) != std::string::npos; at += name.size())
-    text.replace(at, placeholder.size(), name);
-  return text;
-}
 
 void check_name(const std::string& name) {
   const bool is_clean =
@@ -59,7 +50,7 @@ int write_new_case(const NewOptions& options) {
       throw cases::InputError("new: " + to.string() + " exists, and nothing is overwritten");
   if (mpi_rank() != 0) return 0;
   for (const auto& [from, to] : copies) {
-    const std::string text = filled(from, options.name);
+    const std::string text = boost::replace_all_copy(read_file(from), "TEMPLATE", options.name);
     write_file(to.string(), [&](std::ostream& out) { out << text; });
     std::cout << "wrote " << to.string() << '\n';
   }

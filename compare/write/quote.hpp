@@ -7,16 +7,22 @@
 /// Texts as other languages take them.
 namespace springproof::compare {
 
-/// Text as it may stand between the tags of HTML and XML and inside an attribute, in either kind of quotes.
-inline std::string escape(const std::string& text) {
-  static const std::map<char, std::string> entities{
-      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
+/// A text with other texts in place of some of its characters.
+inline std::string escaped(const std::string& text, const std::map<char, std::string>& by) {
   std::string result;
   for (const char c : text) {
-    const auto entity = entities.find(c);
-    result += entity == entities.end() ? std::string(1, c) : entity->second;
+    const auto found = by.find(c);
+    if (found == by.end())
+      result += c;
+    else
+      result += found->second;
   }
   return result;
+}
+
+/// Text as it may stand between the tags of HTML and XML and inside an attribute, in either kind of quotes.
+inline std::string escape(const std::string& text) {
+  return escaped(text, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}});
 }
 
 /// Words as a shell takes them again: what is more than letters, digits and _-./=+:, stands in quotes.
@@ -24,10 +30,8 @@ inline std::string shell_line(const std::vector<std::string>& words) {
   const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,";
   std::string line;
   for (const std::string& word : words) {
-    std::string quoted;
-    for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
     const bool is_plain = !word.empty() && word.find_first_not_of(plain) == std::string::npos;
-    line += (line.empty() ? "" : " ") + (is_plain ? word : "'" + quoted + "'");
+    line += (line.empty() ? "" : " ") + (is_plain ? word : "'" + escaped(word, {{'\'', "'\\''"}}) + "'");
   }
   return line;
 }
