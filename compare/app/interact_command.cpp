@@ -34,8 +34,6 @@ struct InteractOptions {
 std::string page_of(const cases::Case& definition) {
   const std::string report = cases::data_folder("report");
   return filled_page("interact", {{"title", escape(definition.name)},
-                                  {"three", page_script("three.min.js")},
-                                  {"controls", page_script("OrbitControls.js")},
                                   {"three_licence", escape(read_file(report + "/three_licence.txt"))},
                                   {"nonce", "{{nonce}}"}, // the server's
                                   {"socket", "{{socket}}"}});

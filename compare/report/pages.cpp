@@ -10,6 +10,7 @@
 #include "compare/write/quote.hpp"
 #include "compare/write/write.hpp"
 
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace springproof::compare {
@@ -22,14 +23,8 @@ std::string page_file(const std::string& name) {
 
 /// A picture as an address, in two thirds of the length that base64 would have.
 std::string address_of(const std::string& svg) {
-  static const std::map<char, std::string> escapes{{'%', "%25"}, {'#', "%23"}, {'"', "%22"},
-                                                   {'<', "%3C"}, {'>', "%3E"}, {'\n', " "}};
-  std::string address = "data:image/svg+xml,";
-  for (const char c : svg) {
-    const auto escaped = escapes.find(c);
-    address += escaped == escapes.end() ? std::string(1, c) : escaped->second;
-  }
-  return address;
+  return "data:image/svg+xml," +
+         escaped(svg, {{'%', "%25"}, {'#', "%23"}, {'"', "%22"}, {'<', "%3C"}, {'>', "%3E"}, {'\n', " "}});
 }
 
 /// A motion with at most so many times: a screen shows no more.
@@ -52,12 +47,11 @@ void thin(Json& motion) {
 
 } // namespace
 
-std::string page_script(const std::string& name) {
-  return read_file(cases::data_folder("scripts") + "/" + name);
-}
-
 std::string filled_page(const std::string& data, const std::map<std::string, std::string>& values) {
-  const auto file = [&](const std::string& name) { return read_file(cases::data_folder(data) + "/" + name); };
+  const auto file = [&](const std::string& name) {
+    const std::string own = cases::data_folder(data) + "/" + name;
+    return read_file(std::filesystem::exists(own) ? own : cases::data_folder("scripts") + "/" + name);
+  };
   const std::string text = file("page.html");
   std::string result;
   std::size_t from = 0;
@@ -72,10 +66,7 @@ std::string filled_page(const std::string& data, const std::map<std::string, std
 }
 
 std::string embedded(const Json& document) {
-  std::string result;
-  for (const char c : document.dump(-1, ' ', true, Json::error_handler_t::replace))
-    result += c == '<' ? "\\u003c" : std::string(1, c);
-  return result;
+  return escaped(document.dump(-1, ' ', true, Json::error_handler_t::replace), {{'<', "\\u003c"}});
 }
 
 std::string picture(const std::string& folder, const std::string& name, const std::string& caption) {
@@ -86,12 +77,8 @@ std::string picture(const std::string& folder, const std::string& name, const st
 void write_page(const std::string& file, const std::string& title, Json data, const std::string& pictures) {
   data["provenance"] = provenance();
   data["licences"] = {page_file("three_licence.txt"), page_file("chart_licence.txt")};
-  const std::string page = filled_page("report", {{"title", escape(title)},
-                                                  {"pictures", pictures},
-                                                  {"data", embedded(data)},
-                                                  {"three", page_script("three.min.js")},
-                                                  {"controls", page_script("OrbitControls.js")},
-                                                  {"chart", page_script("chart.min.js")}});
+  const std::string page =
+      filled_page("report", {{"title", escape(title)}, {"pictures", pictures}, {"data", embedded(data)}});
   write_file(file, [&](std::ostream& out) { out << page; });
 }
 

@@ -13,10 +13,8 @@
 /// Pages: page.html with its data, which its scripts render.
 namespace springproof::compare {
 
-/// A script that pages are made with: three.min.js, OrbitControls.js, chart.min.js.
-std::string page_script(const std::string& name);
-
-/// page.html of a data folder, every {{name}} replaced by its value or else by the file of that name there.
+/// page.html of a data folder, every {{name}} replaced by its value or else by the file of that name there,
+/// or of a library's script: three.min.js, OrbitControls.js, chart.min.js.
 std::string filled_page(const std::string& data, const std::map<std::string, std::string>& values);
 
 /// JSON as it may stand in a <script>: no text of it can end the element or begin a comment.
