@@ -1,4 +1,5 @@
-// The surfaces of a body as the server describes them: see DrawnSurface and Simulation::frame().
+// The surfaces of a body as the server describes them (see DrawnSurface and Simulation::frame()), with what is drawn of them. Light is
+// computed at the vertices: a pixel costs a processor little then.
 "use strict";
 
 class Surface {
@@ -20,11 +21,25 @@ class Surface {
     this.positions = Float32Array.from(this.rest);
     this.normals = new Float32Array(3 * n_vertices);
     this.turn();
+    this.geometry = new THREE.BufferGeometry();
+    for (const [name, values] of [["position", this.positions], ["normal", this.normals]])
+      this.geometry.setAttribute(name, new THREE.BufferAttribute(values, 3).setUsage(THREE.DynamicDrawUsage));
+    const is_small = n_vertices < 65536;
+    this.geometry.setIndex(new THREE.BufferAttribute(is_small ? Uint16Array.from(this.triangles) : this.triangles, 1));
+    const is_closed = this.is_closed();
+    this.mesh = new THREE.Mesh(this.geometry, new THREE.RawShaderMaterial({
+                                 vertexShader: `const bool both_sides = ${!is_closed};\n` + vertex_shader,
+                                 fragmentShader: fragment_shader,
+                                 side: is_closed ? THREE.FrontSide : THREE.DoubleSide
+                               }));
+    this.mesh.frustumCulled = false; // its vertices move under the sphere that would be asked
   }
   // Positions of the vertices for the nodes' displacement.
   move(displacement) {
     for (let v = 0; v < this.positions.length / 3; ++v) this.move_vertex(v, displacement);
     this.turn();
+    for (const name of ["position", "normal"]) this.geometry.attributes[name].needsUpdate = true;
+    this.geometry.boundingSphere = null;
   }
   move_vertex(vertex, displacement) {
     const {rest, weights, nodes, positions} = this, v = 3 * vertex;

@@ -118,7 +118,7 @@ function show_number(name, value) {
 function show_numbers() {
   const rows = [
     [ "masses", description.masses ], [ "unknowns", description.unknowns ],
-    [ "triangles", description.triangles ], [ "drawn", view.drawn.surface.triangles.length / 3 ],
+    [ "triangles", description.triangles ], [ "drawn", view.drawn.triangles.length / 3 ],
     [ "time step", `${+ (1000 * description.step_s).toPrecision(4)} ms` ],
     [ "a step takes (median)", `${frame.median_ms.toFixed(3)} ms` ],
     [ "99 % of steps below", `${frame.p99_ms.toFixed(3)} ms` ],

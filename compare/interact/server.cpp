@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -42,12 +43,6 @@ std::string random_text() {
   return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-    text.replace(at, what.size(), by);
-  return text;
-}
-
 } // namespace
 
 class PageSocket;
@@ -55,13 +50,11 @@ class PageSocket;
 struct ServerState {
   ServerState(ServedPage served, int port)
       : page(std::move(served)), acceptor(io), signals(io, SIGINT, SIGTERM), leaving(io), again(io) {
-    error_code error;
-    const tcp::endpoint here(asio::ip::address_v4::loopback(), static_cast<unsigned short>(port));
-    acceptor.open(here.protocol(), error);
-    if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
-    if (!error) acceptor.bind(here, error);
-    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
-    if (error) throw cases::InputError("--port " + std::to_string(port) + ": " + error.message());
+    try {
+      acceptor = {io, {asio::ip::address_v4::loopback(), static_cast<unsigned short>(port)}};
+    } catch (const boost::system::system_error& error) {
+      throw cases::InputError("--port " + std::to_string(port) + ": " + error.code().message());
+    }
     const unsigned short bound = acceptor.local_endpoint().port();
     struct sigaction on_hangup {};
     if (sigaction(SIGHUP, nullptr, &on_hangup) == 0 && on_hangup.sa_handler != SIG_IGN) // nohup ignores it
@@ -107,17 +100,19 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
       if (error) return self->leave();
       self->is_accepted_ = true;
       self->server_.page.on_control();
-      self->write({true, std::make_shared<const std::string>(self->server_.page.first_text)});
-      self->write({false, std::make_shared<const std::string>(self->server_.page.first_bytes)});
+      self->write({true, false, std::make_shared<const std::string>(self->server_.page.first_text)});
+      self->write({false, false, std::make_shared<const std::string>(self->server_.page.first_bytes)});
       self->read();
     });
   }
 
   void send_frame(std::shared_ptr<const std::string> frame) {
     if (!is_accepted_) return; // it was asked for by the page before
-    if (waiting_frame_) ++server_.counts.n_frames_dropped;
-    waiting_frame_ = std::move(frame);
-    write_next();
+    if (!outgoing_.empty() && outgoing_.back().is_frame) {
+      ++server_.counts.n_frames_dropped;
+      outgoing_.pop_back();
+    }
+    write({false, true, std::move(frame)});
   }
 
   void close(websocket::close_code code) {
@@ -128,15 +123,15 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
 
  private:
   struct Outgoing {
-    bool is_text;
+    bool is_text, is_frame;
     std::shared_ptr<const std::string> content;
   };
 
   ServerState& server_;
   websocket::stream<beast::tcp_stream> ws_;
   beast::flat_buffer buffer_;
-  std::deque<Outgoing> outgoing_; ///< what comes before all frames
-  std::shared_ptr<const std::string> waiting_frame_, written_;
+  std::deque<Outgoing> outgoing_; ///< with at most one frame, the last
+  Outgoing written_{};
   bool is_accepted_ = false, is_writing_ = false, is_closing_ = false;
   std::chrono::steady_clock::time_point second_ = std::chrono::steady_clock::now();
   int n_in_second_ = 0;
@@ -149,25 +144,18 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   }
 
   void write_next() {
-    if (is_writing_ || is_closing_) return;
-    bool is_text = false;
-    if (!outgoing_.empty()) {
-      is_text = outgoing_.front().is_text;
-      written_ = outgoing_.front().content;
-      outgoing_.pop_front();
-    } else if (waiting_frame_) {
-      written_ = std::exchange(waiting_frame_, nullptr);
-      ++server_.counts.n_frames_sent;
-    } else {
-      return;
-    }
+    if (is_writing_ || is_closing_ || outgoing_.empty()) return;
+    written_ = std::move(outgoing_.front());
+    outgoing_.pop_front();
+    if (written_.is_frame) ++server_.counts.n_frames_sent;
     is_writing_ = true;
-    ws_.text(is_text);
-    ws_.async_write(asio::buffer(*written_), [self = shared_from_this()](error_code error, std::size_t) {
-      self->is_writing_ = false;
-      if (error) return self->leave();
-      self->write_next();
-    });
+    ws_.text(written_.is_text);
+    ws_.async_write(asio::buffer(*written_.content),
+                    [self = shared_from_this()](error_code error, std::size_t) {
+                      self->is_writing_ = false;
+                      if (error) return self->leave();
+                      self->write_next();
+                    });
   }
 
   bool is_too_fast() {
@@ -274,7 +262,9 @@ class HttpRequest : public std::enable_shared_from_this<HttpRequest> {
   void send_page() {
     const std::string nonce = random_text();
     const std::string socket = "ws://" + server_.host + "/socket?token=" + server_.token;
-    response_.body() = replaced(replaced(server_.page.html, "{{nonce}}", nonce), "{{socket}}", socket);
+    response_.body() = server_.page.html;
+    boost::replace_all(response_.body(), "{{nonce}}", nonce);
+    boost::replace_all(response_.body(), "{{socket}}", socket);
     response_.set(http::field::content_type, "text/html; charset=utf-8");
     response_.set("Content-Security-Policy",
                   "default-src 'none'; script-src 'nonce-" + nonce + "'; style-src 'nonce-" + nonce +

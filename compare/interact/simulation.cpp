@@ -141,7 +141,20 @@ std::optional<PageMessage> message_from(const std::string& text) {
 Simulation::Simulation(const cases::Scene& scene, const PullSettings& settings,
                        std::function<void(std::shared_ptr<const std::string>)> on_frame)
     : scene_(scene), body_(scene, settings), on_frame_(std::move(on_frame)) {
-  describe();
+  const mechanics::EmbeddedSurface& surface = body_.surface();
+  DrawnSurface drawn = drawn_surface(surface, body_.spheres().vertices, scene_.mesh);
+  geometry_ = std::move(drawn.bytes);
+  carrying_ = std::move(drawn.nodes);
+  description_ = nlohmann::ordered_json{{"name", scene_.definition.name},
+                                        {"description", scene_.definition.description},
+                                        {"masses", scene_.mesh.nodes.size()},
+                                        {"cells", scene_.mesh.cells.size()},
+                                        {"unknowns", body_.n_unknowns()},
+                                        {"step_s", scene_.definition.dynamics->step},
+                                        {"triangles", surface.rest.triangles.size()},
+                                        {"spheres", body_.spheres().vertices.size()},
+                                        {"radius", body_.spheres().radius}}
+                     .dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -183,23 +196,6 @@ void Simulation::stop() {
     wake_.notify_one();
   }
   if (thread_.joinable()) thread_.join();
-}
-
-void Simulation::describe() {
-  const mechanics::EmbeddedSurface& surface = body_.surface();
-  DrawnSurface drawn = drawn_surface(surface, body_.spheres().vertices, scene_.mesh);
-  geometry_ = std::move(drawn.bytes);
-  carrying_ = std::move(drawn.nodes);
-  description_ = nlohmann::ordered_json{{"name", scene_.definition.name},
-                                        {"description", scene_.definition.description},
-                                        {"masses", scene_.mesh.nodes.size()},
-                                        {"cells", scene_.mesh.cells.size()},
-                                        {"unknowns", body_.n_unknowns()},
-                                        {"step_s", scene_.definition.dynamics->step},
-                                        {"triangles", surface.rest.triangles.size()},
-                                        {"spheres", body_.spheres().vertices.size()},
-                                        {"radius", body_.spheres().radius}}
-                     .dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void Simulation::run() {
@@ -256,10 +252,8 @@ void Simulation::step() {
   const auto before = SteadyClock::now();
   body_.step();
   const double taken = milliseconds(SteadyClock::now() - before);
-  if (step_ms_.size() < most_times)
-    step_ms_.push_back(taken);
-  else
-    step_ms_[static_cast<std::size_t>(summary_.n_steps) % most_times] = taken;
+  step_ms_.push_back(taken);
+  if (step_ms_.size() > most_times) step_ms_.pop_front();
   summary_.largest_ms = std::max(summary_.largest_ms, taken);
   ++summary_.n_steps;
   if (body_.n_steps() <= last_step_) recording_.clear(); // holds the motion since its last start
@@ -272,10 +266,8 @@ void Simulation::step() {
 
 std::shared_ptr<const std::string> Simulation::frame() {
   constexpr std::size_t shown = 500; // number of last steps whose median and 99th percentile are shown
-  const std::size_t n = std::min(shown, step_ms_.size());
-  std::vector<double> last;
-  for (std::size_t i = 0; i < n; ++i)
-    last.push_back(step_ms_[(static_cast<std::size_t>(summary_.n_steps) - 1 - i) % most_times]);
+  const auto n = static_cast<std::ptrdiff_t>(std::min(shown, step_ms_.size()));
+  const std::vector<double> last(step_ms_.end() - n, step_ms_.end());
   const int n_inverted = body_.n_inverted();
   if (n_inverted > 0) ++summary_.n_inverted_frames;
   auto bytes = std::make_shared<std::string>();
@@ -312,8 +304,9 @@ void Simulation::write_recording(std::ostream& out) const {
 
 SimulationSummary Simulation::summary() const {
   SimulationSummary summary = summary_;
-  summary.median_ms = value_below(step_ms_, 0.5);
-  summary.p99_ms = value_below(step_ms_, 0.99);
+  const std::vector<double> times(step_ms_.begin(), step_ms_.end());
+  summary.median_ms = value_below(times, 0.5);
+  summary.p99_ms = value_below(times, 0.99);
   summary.troubles = body_.troubles();
   return summary;
 }

@@ -4,6 +4,7 @@
 #include "compare/interact/recording.hpp"
 
 #include <condition_variable>
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -91,14 +92,13 @@ class Simulation {
   long n_drags_ = 0; ///< that were sent, those that later ones replaced too
   std::thread thread_;
 
-  long n_drags_taken_ = 0;      ///< before the last step
-  std::vector<double> step_ms_; ///< the last steps, a ring
+  long n_drags_taken_ = 0;     ///< before the last step
+  std::deque<double> step_ms_; ///< the last steps
   SimulationSummary summary_;
   std::vector<RecordedPull> recording_;
   double steps_per_second_ = 0;
   long last_step_ = 0; ///< step of the motion since its last start
 
-  void describe();
   void run();
   void take(const std::vector<PageMessage>& messages);
   void step();

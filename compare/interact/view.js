@@ -28,38 +28,12 @@ function is_drawn_by_processor() {
   return !names || /swiftshader|llvmpipe|software/i.test(gl.getParameter(names.UNMASKED_RENDERER_WEBGL));
 }
 
-// A surface with what is drawn of it. Light is computed at the vertices: a pixel costs a processor little then.
-class DrawnSurface {
-  constructor(surface) {
-    this.surface = surface;
-    this.geometry = new THREE.BufferGeometry();
-    for (const [name, values] of [["position", surface.positions], ["normal", surface.normals]])
-      this.geometry.setAttribute(name, new THREE.BufferAttribute(values, 3).setUsage(THREE.DynamicDrawUsage));
-    const is_small = surface.rest.length / 3 < 65536;
-    this.geometry.setIndex(
-        new THREE.BufferAttribute(is_small ? Uint16Array.from(surface.triangles) : surface.triangles, 1));
-    const is_closed = surface.is_closed();
-    this.mesh = new THREE.Mesh(this.geometry, new THREE.RawShaderMaterial({
-                                 vertexShader: `const bool both_sides = ${!is_closed};\n` + vertex_shader,
-                                 fragmentShader: fragment_shader,
-                                 side: is_closed ? THREE.FrontSide : THREE.DoubleSide
-                               }));
-    this.mesh.frustumCulled = false; // its vertices move under the sphere that would be asked
-  }
-  move(displacement) {
-    this.surface.move(displacement);
-    for (const name of ["position", "normal"]) this.geometry.attributes[name].needsUpdate = true;
-    this.geometry.boundingSphere = null;
-  }
-}
-
 class View {
   constructor(fine, coarse) {
     const antialias = (window.devicePixelRatio || 1) < 2 && !is_drawn_by_processor();
     this.renderer = new THREE.WebGLRenderer({canvas, antialias, alpha: false});
-    this.fine = new DrawnSurface(fine);
-    this.coarse = coarse ? new DrawnSurface(coarse) : this.fine;
-    this.drawn = this.fine;
+    this.drawn = this.fine = fine;
+    this.coarse = coarse || fine;
     this.resolution = 1;  // pixels of the picture, as a part of the screen's
     this.drawn_ms = 0;    // time that a picture takes, a running mean
     this.is_full = true;  // the picture is of all triangles and pixels
@@ -133,7 +107,7 @@ class View {
     let is_changed = this.handle.visible !== is_held;
     this.spring.visible = this.handle.visible = is_held;
     if (!is_held) return is_changed;
-    const place = this.fine.surface.place(frame.held, frame.displacement);
+    const place = this.fine.place(frame.held, frame.displacement);
     if (!pull.held_from) pull.held_from = place.clone();
     const end = pull.held_from.clone().add(pull.by), ends = this.spring.geometry.attributes.position;
     is_changed = is_changed || !end.equals(this.handle.position);
@@ -179,7 +153,7 @@ class View {
         if (down > upper[1]) upper[1] = down;
       }
     };
-    hold(surface.surface.positions);
+    hold(surface.positions);
     if (this.spring.visible) hold(this.spring.geometry.attributes.position.array);
     const with_room = (part) => { // widens by 8 pixels and a part of the body's size
       const room = 8 + part * Math.max(upper[0] - lower[0], upper[1] - lower[1]);

@@ -200,7 +200,7 @@ def check_coarse_picture(springproof, case, folder):
     with Browser() as browser:
         page = browser.open(program.address)
         page.wait_until("typeof seen !== 'undefined' && seen.frames > 5")
-        assert page.value("[surface, view.coarse.surface].every((each) => each.is_closed())")
+        assert page.value("[surface, view.coarse].every((each) => each.is_closed())")
         assert page.value("surface.triangles.length") == 3 * n_fine
         page.wait_until("view.is_full")
         n_pictures = page.value("seen.pictures")
@@ -212,7 +212,7 @@ def check_coarse_picture(springproof, case, folder):
         page.mouse("mousePressed", x, y)
         for step in range(1, 11):
             page.mouse("mouseMoved", x + 14 * step, y - 6 * step)
-        page.wait_until("frame.held >= 0 && view.drawn === view.coarse && Math.max(...view.coarse.surface.positions.map((at, i) => Math.abs(at - view.coarse.surface.rest[i]))) > 3")
+        page.wait_until("frame.held >= 0 && view.drawn === view.coarse && Math.max(...view.coarse.positions.map((at, i) => Math.abs(at - view.coarse.rest[i]))) > 3")
         pulled = page.value(PAINTED)
         assert pulled["part"] > 0.1 and pulled["n_at_border"] == 0 and pulled["of_stage"] < 0.6, pulled
         page.screenshot(folder / "coarse.png")

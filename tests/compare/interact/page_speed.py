@@ -30,7 +30,7 @@ def pull(page, x, y, picture=None):
         page.screenshot(picture)
     page.mouse("mouseReleased", x + 64, y - 40, buttons=0)
     time.sleep(0.3)
-    found = page.value("({drawn: seen.latency_ms, shown: seen.on_page_ms, step: frame.median_ms, triangles: view.drawn.surface.triangles.length / 3, resolution: view.resolution})")
+    found = page.value("({drawn: seen.latency_ms, shown: seen.on_page_ms, step: frame.median_ms, triangles: view.drawn.triangles.length / 3, resolution: view.resolution})")
     print(f"{1000 * (after[0] - before[0]) / (after[1] - before[1]):.1f} pictures a second; from a move to its picture, ms: drawn "
           f"{part(found['drawn'], 0.5):.0f} (median), {part(found['drawn'], 0.9):.0f} (90 %), on the page {part(found['shown'], 0.5):.0f}, "
           f"{part(found['shown'], 0.9):.0f}; a step takes {found['step']:.1f} ms; {found['triangles']:.0f} triangles, {found['resolution']:.2f} of the pixels along a side")
