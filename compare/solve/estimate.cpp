@@ -177,8 +177,7 @@ Estimate estimate_springs(const BodySize& body) {
     estimate = linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);
   else
     estimate = factorised("springs (factorised)", unknowns, springs_lattice);
-  const bool is_by_snes = definition.msm.solver == cases::Solver::snes;
-  estimate.held_by = is_by_snes ? HeldBy::all_ranks_together : HeldBy::first_rank;
+  estimate.is_on_first_rank = definition.msm.solver != cases::Solver::snes;
   return in_time(estimate, definition);
 }
 
@@ -187,7 +186,7 @@ std::vector<Estimate> estimate_vibrations(const BodySize& body) {
   std::vector<Estimate> models{
       factorised("finite elements (factorised)", 3 * refined_nodes(body, halvings), finite_elements),
       factorised("springs (factorised)", 3 * body.n_nodes, springs_lattice)};
-  for (Estimate& model : models) model.held_by = HeldBy::first_rank;
+  for (Estimate& model : models) model.is_on_first_rank = true;
   return models;
 }
 
@@ -248,15 +247,7 @@ RanksOfMachine ranks_of_machine() {
 double megabytes_within(const MemoryLimit& limit, const Estimate& model, const RanksOfMachine& ranks) {
   const int n_within = limit.is_of_a_process ? 1 : ranks.here;
   const double rest = model.megabytes - model.megabytes_of_each, of_each = model.megabytes_of_each * n_within;
-  switch (model.held_by) {
-  case HeldBy::all_ranks_together:
-    return rest * n_within / ranks.all + of_each;
-  case HeldBy::every_rank:
-    return rest * n_within + of_each;
-  case HeldBy::first_rank:
-    break;
-  }
-  return rest + of_each;
+  return (model.is_on_first_rank ? rest : rest * n_within / ranks.all) + of_each;
 }
 
 void check_memory(const std::string& file, const std::vector<Estimate>& models, const MemoryLimit& limit) {
@@ -273,11 +264,11 @@ void check_memory(const std::string& file, const std::vector<Estimate>& models, 
 cases::Scene make_scene_within_memory(const cases::Case& definition) {
   // Nodes, cells, and what selecting regions takes for a while, which is all that a box takes.
   const double bytes_a_node = std::holds_alternative<cases::Box>(definition.body) ? 10 : 150;
-  if (const auto body = size_of(definition))
-    check_memory(
-        definition.file,
-        {{"the mesh's nodes", 3 * body->n_nodes, 1e-6 * bytes_a_node * body->n_nodes, 0, HeldBy::every_rank}},
-        memory_limit());
+  if (const auto body = size_of(definition)) {
+    const double megabytes = 1e-6 * bytes_a_node * body->n_nodes;
+    check_memory(definition.file, {{"the mesh's nodes", 3 * body->n_nodes, megabytes, 0, megabytes}},
+                 memory_limit());
+  }
   return cases::make_scene(definition);
 }
 

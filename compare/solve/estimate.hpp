@@ -6,16 +6,13 @@
 /// What solving takes, before it is begun: from the numbers of nodes, element, formulation and backend alone.
 namespace springproof::compare {
 
-/// Which ranks have the memory of a model.
-enum class HeldBy { all_ranks_together, first_rank, every_rank };
-
 struct Estimate {
-  std::string model;    ///< "finite elements (matrix-free)"
-  double unknowns = 0;  ///< constrained ones included
-  double megabytes = 0; ///< 10^6 bytes above what the program takes by itself
-  double seconds = 0;   ///< seconds of one thread, from the model to the equilibrium
-  HeldBy held_by = HeldBy::all_ranks_together;
-  double megabytes_of_each = 0; ///< part of megabytes that every rank has whole
+  std::string model;             ///< "finite elements (matrix-free)"
+  double unknowns = 0;           ///< constrained ones included
+  double megabytes = 0;          ///< 10^6 bytes above what the program takes by itself
+  double seconds = 0;            ///< seconds of one thread, from the model to the equilibrium
+  double megabytes_of_each = 0;  ///< part of megabytes that every rank has whole
+  bool is_on_first_rank = false; ///< the rest; else all ranks have it together
   std::string remedy = "give the body fewer cells, or refine it less"; ///< where memory is short
 };
 

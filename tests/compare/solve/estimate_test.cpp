@@ -160,7 +160,7 @@ TEST_CASE("a machine has to hold its ranks' part of a model, and a process its o
   }
   CHECK(compare::megabytes_within(machine, alone, ranks) == alone.megabytes);
   CHECK(compare::megabytes_within(process, alone, ranks) == alone.megabytes);
-  const Estimate scene{"scene", 1, 100, 0, compare::HeldBy::every_rank};
+  const Estimate scene{"scene", 1, 100, 0, 100};
   CHECK(compare::megabytes_within(machine, scene, ranks) == 200);
   CHECK(compare::megabytes_within(process, scene, ranks) == 100);
 }
@@ -172,7 +172,7 @@ TEST_CASE("finite elements in motion are divided among the ranks, but for their 
   definition.dynamics->end = 0.01;
   definition.dynamics->write_every = 10;
   const Estimate motion = compare::estimate(body(definition), {}).front();
-  CHECK(motion.held_by == compare::HeldBy::all_ranks_together);
+  CHECK_FALSE(motion.is_on_first_rank);
   CHECK(motion.megabytes_of_each >= 1e-6 * 2 * 24 * 2 * cubed(41)); // two bodies kept
   CHECK(motion.megabytes > 226);                                    // measured: log_strain q1_bbar
   const double rest = motion.megabytes - motion.megabytes_of_each;
@@ -188,7 +188,7 @@ TEST_CASE("springs in motion are held by the first rank, and its trajectory by e
   compare::Request request;
   request.only = cases::Side::msm;
   const Estimate motion = compare::estimate(body(definition), request).front();
-  CHECK(motion.held_by == compare::HeldBy::first_rank);
+  CHECK(motion.is_on_first_rank);
   const double bodies = 1e-6 * 2 * 24 * 11 * cubed(101); // MB of a trajectory of eleven
   CHECK(motion.megabytes_of_each == Approx(bodies));
   const compare::RanksOfMachine ranks{8, 2};
