@@ -63,7 +63,7 @@ Sweep time_all(const SweepOptions& options, const cases::Case& definition) {
     return sweep_motion(definition, options.extent(), write_csv);
   }
   claim_folder(options.out);
-  check_same_on_ranks("cases", n_mpi_ranks() > 1 ? cases::to_bytes(definition) : "");
+  check_same_on_ranks(n_mpi_ranks() > 1 ? cases::to_bytes(definition) : "");
   const Sweep whole = make_sweep(definition, options.extent(), options.rules(), options.budget);
   announce(whole, options.out);
   return run_sweep(whole, "/proc/self/exe", write_csv);

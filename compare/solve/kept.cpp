@@ -85,8 +85,7 @@ bool exists(const Shard& shard) {
 
 /// 0, which no shard has, for anything else than a number that one may have.
 int shard_number(const nlohmann::json& value) {
-  const std::int64_t number = value.is_number_integer() ? value.get<std::int64_t>() : 0;
-  return 1 <= number && number <= most_shards ? static_cast<int>(number) : 0;
+  return value.is_number_integer() && 1 <= value && value <= most_shards ? value.get<int>() : 0;
 }
 
 } // namespace

@@ -94,14 +94,13 @@ void run_on_all_ranks(const std::function<void()>& action) {
   if (failed < n_mpi_ranks()) throw cases::InputError(from_rank(failed, reason));
 }
 
-void check_same_on_ranks(const std::string& what, const std::string& text) {
-  const std::string expected = from_rank_0(text);
+void check_same_on_ranks(const std::string& bytes) {
+  const std::string expected = from_rank_0(bytes);
   run_on_all_ranks([&] {
-    if (text != expected)
-      throw cases::InputError(
-          fmt::format("rank {} was given other {} than rank 0: all need the same command, "
-                      "and the same files",
-                      mpi_rank(), what));
+    if (bytes != expected)
+      throw cases::InputError(fmt::format("rank {} was given other cases than rank 0: all need the same "
+                                          "command, and the same files",
+                                          mpi_rank()));
   });
 }
 

@@ -17,9 +17,8 @@ bool on_all_ranks(bool here);
 /// @throws InputError on every rank, with the reason of the first that it failed on
 void run_on_all_ranks(const std::function<void()>& action);
 
-/// @param what   names the text in a message   @param text  text of this rank
-/// @throws InputError on every rank unless the text is the same on all
-void check_same_on_ranks(const std::string& what, const std::string& text);
+/// @param bytes  those of this rank's cases   @throws InputError on every rank unless all have the same
+void check_same_on_ranks(const std::string& bytes);
 
 /// An Answer, or Answers, that rank 0 alone finds, shared by all ranks.
 /// @param find  called on rank 0   @throws InputError that it throws, on every rank

@@ -88,7 +88,7 @@ std::vector<Question> read_questions(const std::vector<std::string>& case_files,
   if (n_mpi_ranks() > 1) {
     std::string bytes;
     for (const Question& question : questions) bytes += cases::to_bytes(question.scene.definition);
-    check_same_on_ranks("cases", bytes);
+    check_same_on_ranks(bytes);
   }
   return questions;
 }
