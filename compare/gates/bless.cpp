@@ -37,10 +37,18 @@ std::size_t offset_of(const std::string& text, const cases::Where& where) {
   return std::min(at, text.size());
 }
 
-/// The text of a case file with some intervals replaced.
-std::string with_intervals(const std::string& text, const std::vector<BlessedInterval>& blessed) {
+bool is_regression(const cases::Expectation& expected) {
+  return expected.reference == cases::ReferenceKind::regression;
+}
+
+/// The text of a judged case's file with the intervals that are blessed.
+std::string blessed_text(const std::string& text, const Comparison& judged) {
   std::map<std::size_t, std::string, std::greater<>> ends; // by their places, the last one first
-  for (const auto& [old, interval] : blessed)
+  for (const Gate& gate : judged.gates) {
+    const cases::Expectation& old = gate.expectation;
+    if (!is_regression(old) || gate.met() || !gate.value) continue;
+    const double half = (old.interval[1] - old.interval[0]) / 2;
+    const std::array<double, 2> interval{*gate.value - half, *gate.value + half};
     for (std::size_t e = 0; e < 2; ++e) {
       const std::size_t at = offset_of(text, old.ends_where[e]);
       std::string number = text.substr(at, text.find_first_of(" \t\r\n,]#", at) - at);
@@ -52,6 +60,7 @@ std::string with_intervals(const std::string& text, const std::vector<BlessedInt
         throw cases::InputError(old.ends_where[e], "the interval is so wide that it cannot be moved");
       ends[at] = written(interval[e], interval[1] - interval[0]);
     }
+  }
   std::string result = text;
   for (const auto& [at, number] : ends) result.replace(at, text.find_first_of(" \t\r\n,]#", at) - at, number);
   return result;
@@ -69,34 +78,20 @@ std::string changed_lines(const std::string& path, const std::string& before, co
 
 } // namespace
 
-std::vector<BlessedInterval> intervals_to_bless(const Comparison& judged) {
-  std::vector<BlessedInterval> blessed;
-  for (const Gate& gate : judged.gates) {
-    const cases::Expectation& expected = gate.expectation;
-    if (expected.reference != cases::ReferenceKind::regression || gate.met() || !gate.value) continue;
-    const double half = (expected.interval[1] - expected.interval[0]) / 2;
-    blessed.push_back({expected, {*gate.value - half, *gate.value + half}});
-  }
-  return blessed;
-}
-
 std::string blessed_file(const cases::Case& definition) {
   return std::filesystem::canonical(definition.file);
 }
 
 std::string bless(const Comparison& judged) {
-  const std::vector<BlessedInterval> blessed = intervals_to_bless(judged);
-  if (blessed.empty()) return "";
   const std::string before = read_file(judged.scene.definition.file);
-  const std::string after = with_intervals(before, blessed);
+  const std::string after = blessed_text(before, judged);
+  if (after == before) return "";
   write_named_file(blessed_file(judged.scene.definition), [&](std::ostream& out) { out << after; });
   return changed_lines(judged.scene.definition.file, before, after);
 }
 
 bool has_regression(const cases::Case& definition) {
-  return std::any_of(
-      definition.expectations.begin(), definition.expectations.end(),
-      [](const auto& expected) { return expected.reference == cases::ReferenceKind::regression; });
+  return std::any_of(definition.expectations.begin(), definition.expectations.end(), is_regression);
 }
 
 } // namespace springproof::compare
