@@ -1,6 +1,5 @@
 #include "cases/case/names.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/app/design_options.hpp"
 #include "compare/cube/plot_design.hpp"
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/machine.hpp"

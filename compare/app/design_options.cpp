@@ -1,10 +1,9 @@
-#include "compare/app/design_options.hpp"
+#include "compare/app/commands.hpp"
 
 #include "cases/case/input_file.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "cases/case/readers.hpp"
-#include "compare/app/commands.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/springs.hpp"

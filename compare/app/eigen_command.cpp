@@ -2,7 +2,6 @@
 #include "cases/case/read_case.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/app/design_options.hpp"
 #include "compare/modes/write_eigen.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"

@@ -32,14 +32,6 @@ struct GateOptions {
   ShardOptions shards;
 };
 
-/// Every case is read, and its mesh and regions looked up, before any is solved.
-std::vector<Question> read_all(const GateOptions& options) {
-  Request request;
-  if (!options.displacements.file.empty()) request.only = cases::Side::fem;
-  request.meshes = options.meshes;
-  return with_recording(read_questions(options.files, options.settings, request), options.replay);
-}
-
 /// @throws InputError for a name that is no case's or has nothing to bless
 void check_blessing(const GateOptions& options, const std::vector<Question>& questions) {
   if (!options.bless.empty() && !options.settings.empty())
@@ -91,7 +83,12 @@ std::vector<Answers> solved_or_merged(const GateOptions& options, const std::vec
 }
 
 int gate(const GateOptions& options) {
-  std::vector<Question> questions = read_all(options);
+  Request request;
+  if (!options.displacements.file.empty()) request.only = cases::Side::fem;
+  request.meshes = options.meshes;
+  // Every case is read, and its mesh and regions looked up, before any is solved.
+  std::vector<Question> questions =
+      with_recording(read_questions(options.files, options.settings, request), options.replay);
   check_blessing(options, questions);
   check_named_file(options.junit);
   if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu

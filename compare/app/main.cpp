@@ -36,7 +36,7 @@ int run_action(const compare::Action& action, BlasWarning warning) {
           << "springproof: the BLAS in use is not OpenBLAS; the direct solvers will be several times slower "
              "(install libopenblas0-pthread)\n";
     compare::check_petsc_options();
-    const compare::Colours colours;
+    const auto colours = compare::coloured_output();
     const int done = action();
     std::cout.flush();
     if (std::cout) return done;

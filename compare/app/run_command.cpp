@@ -2,7 +2,6 @@
 
 #include "cases/case/names.hpp"
 #include "cases/mesh/vtk_functions.hpp"
-#include "compare/app/design_options.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/error_bars/time_study.hpp"
 #include "compare/peers/calculix.hpp"
@@ -22,7 +21,6 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 
 namespace springproof::compare {
 
@@ -100,10 +98,8 @@ std::string msm_setting(const std::string& design, const cases::Msm& own) {
 /// This process's command as it was typed, quoted for a shell; empty where the system does not tell.
 std::string typed_command() {
   std::ifstream in("/proc/self/cmdline", std::ios::binary);
-  const std::string all{std::istreambuf_iterator<char>(in), {}}; // words that each end with a zero
   std::vector<std::string> words;
-  for (std::size_t begin = 0, end = 0; (end = all.find('\0', begin)) != std::string::npos; begin = end + 1)
-    words.push_back(all.substr(begin, end - begin));
+  for (std::string word; std::getline(in, word, '\0');) words.push_back(word);
   return shell_line(words);
 }
 
@@ -216,12 +212,6 @@ void write_page_of(const RunOptions& options, const Comparison& comparison, cons
   });
 }
 
-/// The designs of a case that is solved. Collective.
-Ranking rank_solved(const RunOptions& options, const Comparison& comparison) {
-  return rank_designs(comparison.scene, designs_of(options.designs, comparison.scene.definition),
-                      gathered(comparison.answers));
-}
-
 /// What a run has found of its cases so far.
 struct Results {
   std::vector<Comparison> done;
@@ -308,7 +298,9 @@ int run_comparisons(const RunOptions& options) {
       failed = failed || !results.time_studies.back().failures.empty();
     }
     if (!options.designs.empty()) {
-      results.rankings.push_back(rank_solved(options, comparison));
+      results.rankings.push_back(rank_designs(comparison.scene,
+                                              designs_of(options.designs, comparison.scene.definition),
+                                              gathered(comparison.answers)));
       failed = failed || (mpi_rank() == 0 && !results.rankings.back().is_sound());
     }
     if (!options.json && mpi_rank() == 0) print_last(options, results);

@@ -11,6 +11,7 @@
 #include <fcntl.h>
 #include <iostream>
 #include <mpi.h>
+#include <streambuf>
 #include <string_view>
 #include <thread>
 #include <unistd.h>
@@ -93,14 +94,12 @@ void give_up(const std::string& message, int status) {
   }
 }
 
-Colours::Colours() : plain_(std::cout.rdbuf()) {
-  if (!wants_colours()) return;
-  colouring_ = std::make_unique<Colouring>(*plain_);
-  std::cout.rdbuf(colouring_.get());
-}
-
-Colours::~Colours() {
-  if (colouring_) std::cout.rdbuf(plain_);
+std::shared_ptr<void> coloured_output() {
+  if (!wants_colours()) return nullptr;
+  std::streambuf* const plain = std::cout.rdbuf();
+  const auto colouring = std::make_shared<Colouring>(*plain);
+  std::cout.rdbuf(colouring.get());
+  return {colouring.get(), [colouring, plain](void*) { std::cout.rdbuf(plain); }};
 }
 
 } // namespace springproof::compare

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <streambuf>
 #include <string>
 
 /// A command's process, and its job's other ranks.
@@ -14,17 +13,9 @@ void reserve_standard_streams();
 /// within two seconds, ends them all with this status, because they may be waiting for this rank for ever.
 void give_up(const std::string& message, int status);
 
-/// Colours verdicts at the beginnings of lines of std::cout until it ends: met green, missed and failed red,
-/// warnings yellow. Only on a terminal, unless NO_COLOR is set (no-color.org) or TERM is "dumb".
-class Colours {
- public:
-  Colours();
-  ~Colours();
-  Colours(const Colours&) = delete;
-
- private:
-  std::streambuf* plain_;
-  std::unique_ptr<std::streambuf> colouring_; ///< null: nothing is coloured
-};
+/// Colours verdicts at the beginnings of lines of std::cout: met green, missed and failed red, warnings
+/// yellow. Only on a terminal, unless NO_COLOR is set (no-color.org) or TERM is "dumb".
+/// @return ends it when it is gone
+std::shared_ptr<void> coloured_output();
 
 } // namespace springproof::compare
