@@ -1,6 +1,6 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
-#include "compare/app/design_options.hpp"
+#include "compare/app/commands.hpp"
 #include "compare/cube/write_design.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/comparison.hpp"
@@ -187,24 +187,14 @@ class Counted {
 /// PETSc and MPI, which finite elements and solver = "snes" use, are not made for threads. Taken and given
 /// back without Python's own lock (the GIL), so that neither is waited for by the holder of the other; a
 /// signal's handler, which runs in the midst of a solve, may solve too.
-class OneAtATime {
- public:
-  OneAtATime() {
-    while (!mutex_.try_lock_for(std::chrono::milliseconds(100))) check_signals();
-  }
-  ~OneAtATime() { mutex_.unlock(); }
-  OneAtATime(const OneAtATime&) = delete;
-
- private:
-  static std::recursive_timed_mutex mutex_;
-};
-std::recursive_timed_mutex OneAtATime::mutex_;
+std::recursive_timed_mutex one_at_a_time;
 
 compare::Answers solve(const cases::Scene& scene, const compare::Request& request) try {
   const Counted until_python_has_this_thread_again;
   const py::gil_scoped_release others_may_run;
-  std::optional<OneAtATime> alone;
-  if (request.asks(cases::Side::fem) || scene.definition.msm.solver == cases::Solver::snes) alone.emplace();
+  std::unique_lock alone(one_at_a_time, std::defer_lock);
+  if (request.asks(cases::Side::fem) || scene.definition.msm.solver == cases::Solver::snes)
+    while (!alone.try_lock_for(std::chrono::milliseconds(100))) check_signals();
   compare::use_one_blas_thread(); // cases side by side are what fills the cores
   compare::check_memory({{scene, request}});
   return compare::solve(scene, request, compare::solve_fem);
