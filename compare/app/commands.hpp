@@ -28,26 +28,35 @@ void add_sweep_command(CLI::App& program, Action& chosen);
 void add_tables_command(CLI::App& program, Action& chosen);
 void add_worker_command(CLI::App& program, Action& chosen); ///< hidden: see solve/solve_jobs.hpp
 
+// The process of a command, and its job's other ranks.
+
+/// Keeps the number of a closed standard stream from the next file that is opened: writing to it fails.
+void reserve_standard_streams();
+
+/// Ends a rank that meets an error. Rank 0 tells it. Returns when all ranks meet one; when some do not
+/// within two seconds, ends them all with this status, because they may be waiting for this rank for ever.
+void give_up(const std::string& message, int status);
+
+/// Colours verdicts at the beginnings of lines of std::cout: met green, missed and failed red, warnings
+/// yellow. Only on a terminal, unless NO_COLOR is set (no-color.org) or TERM is "dumb".
+/// @return ends it when it is gone
+std::shared_ptr<void> coloured_output();
+
 /// The program's commands without those that --help leaves out.
 inline std::vector<const CLI::App*> commands_of(const CLI::App& program) {
   return program.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
-/// A command and the options that its command line sets.
-template<class Options>
-struct Command {
-  CLI::App* app;
-  std::shared_ptr<Options> options;
-};
-
 /// Adds a command that is run with its options when it is the one chosen.
+/// @return the command, and the options that its command line sets
 template<class Options>
-Command<Options> add_command(CLI::App& program, Action& chosen, const std::string& name,
-                             const std::string& description, int (*run)(const Options&)) {
-  const Command<Options> command{program.add_subcommand(name, description), std::make_shared<Options>()};
-  command.app->callback(
-      [options = command.options, run, &chosen] { chosen = [options, run] { return run(*options); }; });
-  return command;
+std::pair<CLI::App*, std::shared_ptr<Options>>
+add_command(CLI::App& program, Action& chosen, const std::string& name, const std::string& description,
+            int (*run)(const Options&)) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* const command = program.add_subcommand(name, description);
+  command->callback([options, run, &chosen] { chosen = [options, run] { return run(*options); }; });
+  return {command, options};
 }
 
 /// Files of the cases in a folder of the program's cases, by their names.

@@ -15,8 +15,6 @@ namespace springproof::compare {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct CommandOptions {
   DesignOptions design;
   bool compare = false, pareto = false, measure = false, json = false;
@@ -77,15 +75,6 @@ void write_files(const CommandOptions& options, const msm::DesignRequest& reques
     write_nonlinear_figures(options.out, request, attempts.front().design->stiffness);
 }
 
-/// Which one to use, or how to find out.
-void write_last_words(const CommandOptions& options, const msm::DesignRequest& request,
-                      const std::vector<DesignAttempt>& attempts) {
-  std::cout << '\n';
-  write_paragraph(std::cout, options.measure
-                                 ? recommendation_text(attempts, request)
-                                 : "Which one to use, by its errors on the thesis's cube: --measure.");
-}
-
 /// Whether a design was made, and when measured a load set solved; a refused one is a row with its reason.
 bool has_answer(const CommandOptions& options, const std::vector<DesignAttempt>& attempts) {
   return std::any_of(attempts.begin(), attempts.end(), [&](const DesignAttempt& a) {
@@ -107,7 +96,12 @@ int run(const CommandOptions& options) {
     write_comparison_text(std::cout, attempts);
   else
     write_design_text(std::cout, attempts.front());
-  if (options.compare && !options.json) write_last_words(options, request, attempts);
+  if (options.compare && !options.json) {
+    std::cout << '\n';
+    write_paragraph(std::cout, options.measure
+                                   ? recommendation_text(attempts, request)
+                                   : "Which one to use, by its errors on the thesis's cube: --measure.");
+  }
   if (!options.out.empty()) write_files(options, request, attempts);
   return has_answer(options, attempts) ? 0 : 1;
 }

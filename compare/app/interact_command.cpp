@@ -75,19 +75,14 @@ void print_summary(const SimulationSummary& summary, const ServerCounts& counts)
           summary.troubles.n_failures, summary.troubles.failure);
 }
 
-/// Where a recording goes: to none that is there already.
-std::string free_path(const std::string& folder, const std::string& name) {
-  const std::string stem = folder + "/" + name + "_pulls";
-  std::string path = stem + ".csv";
-  for (int number = 2; std::filesystem::exists(path); ++number) path = fmt::format("{}_{}.csv", stem, number);
-  return path;
-}
-
+/// Writes the recording to a file that is not there already.
 /// @return where it was written; empty: there is nothing to keep
 std::string keep_recording(const InteractOptions& options, const cases::Case& definition,
                            const Simulation& simulation) {
   if (options.out.empty() || !simulation.has_recording()) return "";
-  const std::string path = free_path(options.out, definition.name);
+  const std::string stem = options.out + "/" + definition.name + "_pulls";
+  std::string path = stem + ".csv";
+  for (int number = 2; std::filesystem::exists(path); ++number) path = fmt::format("{}_{}.csv", stem, number);
   write_file(path, [&](std::ostream& out) { simulation.write_recording(out); });
   return path;
 }

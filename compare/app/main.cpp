@@ -1,7 +1,6 @@
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "compare/app/commands.hpp"
-#include "compare/app/session.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/solve/process_pool.hpp"

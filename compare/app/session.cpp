@@ -1,4 +1,4 @@
-#include "compare/app/session.hpp"
+#include "compare/app/commands.hpp"
 
 #include "cases/case/error.hpp"
 #include "compare/provenance/machine.hpp"

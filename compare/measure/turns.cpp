@@ -15,11 +15,11 @@ namespace {
 using cases::index;
 using Eigen::Vector3d;
 
-constexpr double whole = 360;
+constexpr double full_turn = 360;
 
 /// The angle (degrees) that differs by whole turns from one, and is nearest to another.
 double nearest(double degrees, double to) {
-  return degrees + whole * std::round((to - degrees) / whole);
+  return degrees + full_turn * std::round((to - degrees) / full_turn);
 }
 
 /// The turns of a segment by the cells at each node, counted from one of them to the next.
@@ -91,7 +91,7 @@ class TurnedNodes {
       if (is_counted_[index(other)]) continue;
       const double apart =
           std::abs(nearest(degrees_[index(other)], degrees_[index(node)]) - degrees_[index(node)]);
-      const auto size = static_cast<std::size_t>(apart / (whole / 2) * n_sizes);
+      const auto size = static_cast<std::size_t>(apart / (full_turn / 2) * n_sizes);
       steps_[std::min(size, n_sizes - 1)].push_back({node, other});
     }
   }
@@ -127,7 +127,7 @@ bool is_turned_far(const TurnedSegment& segment, const cases::Scene& scene,
     largest = std::max(largest, std::abs(TurnedNodes::degrees_between(segment, turned)));
   }
   if (sharing) largest = sharing->largest(largest);
-  return largest > whole / 4;
+  return largest > full_turn / 4;
 }
 
 void begin_at_supports(TurnedNodes& nodes, const TurnedSegment& segment, const cases::Scene& scene,
