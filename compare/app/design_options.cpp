@@ -4,7 +4,6 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "cases/case/readers.hpp"
-#include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/springs.hpp"
 
