@@ -6,7 +6,6 @@
 #include "compare/gates/comparison.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/solve/estimate.hpp"
-#include "compare/solve/springs.hpp"
 #include "compare/table/json.hpp"
 #include "compare/write/write.hpp"
 #include "mechanics/interruption.hpp"
@@ -27,12 +26,9 @@ using namespace springproof;
 
 namespace {
 
-/// A case as Python holds it: solutions keep theirs alive.
-using SharedScene = std::shared_ptr<const cases::Scene>;
-
 /// One model's answer to a case, measured as `run --only` measures it.
 struct Solution {
-  SharedScene scene; ///< that was solved
+  std::shared_ptr<cases::Scene> scene; ///< that was solved, kept alive
   cases::Side side;
   compare::Comparison comparison;
 
@@ -108,14 +104,6 @@ py::array bodies_of(const Solution& solution) {
   return std::move(array);
 }
 
-py::array body_times_of(const Solution& solution) {
-  const cases::Trajectory& trajectory = trajectory_of(solution);
-  py::array_t<double> array(static_cast<py::ssize_t>(trajectory.bodies.size()));
-  double* to = array.mutable_data();
-  for (const auto& body : trajectory.bodies) *to++ = trajectory.time[cases::index(body.step)];
-  return std::move(array);
-}
-
 /// What the program prints beside the numbers of a side: warnings of the design and of steps in time, what is
 /// to be said of how it was solved, and what fails a `run`.
 std::vector<std::string> warnings_of(const Solution& solution) {
@@ -130,7 +118,8 @@ std::vector<std::string> warnings_of(const Solution& solution) {
   return all;
 }
 
-std::map<std::string, std::optional<double>> measure(const SharedScene& scene, const Solution& solution) {
+std::map<std::string, std::optional<double>> measure(const std::shared_ptr<cases::Scene>& scene,
+                                                     const Solution& solution) {
   if (solution.scene != scene)
     throw cases::InputError("the solution " + solution.described() +
                             " is not of this Case: measure it with the one that solved it, solution.case");
@@ -204,7 +193,7 @@ compare::Answers solve(const cases::Scene& scene, const compare::Request& reques
 }
 
 /// @throws SolveError where the program would print a failed row
-std::shared_ptr<Solution> solve_side(const SharedScene& scene, const std::string& side) {
+std::shared_ptr<Solution> solve_side(const std::shared_ptr<cases::Scene>& scene, const std::string& side) {
   compare::Request request;
   request.only = cases::value_of<cases::Side>(side);
   if (!request.only)
@@ -278,8 +267,7 @@ PYBIND11_MODULE(_springproof, module) {
     value(name, text,
           [get](const py::object& self) { return view(self, get(self.cast<const Solution&>())); });
   };
-  value("case", "the Case that was solved",
-        [](const Solution& s) { return std::const_pointer_cast<cases::Scene>(s.scene); });
+  value("case", "the Case that was solved", [](const Solution& s) { return s.scene; });
   value("side", "\"msm\" or \"fem\"", [](const Solution& s) { return cases::name_of(s.side); });
   array(
       "displacement", "mm, a row per node",
@@ -312,7 +300,13 @@ PYBIND11_MODULE(_springproof, module) {
   array(
       "volumes", "of a motion: the body's volume at every time, mm3; empty unless a measure is of it",
       [](const Solution& s) -> auto& { return trajectory_of(s).volume; });
-  value("body_times", "of a motion: times of `bodies`, s: every dynamics.write_every steps", body_times_of);
+  value("body_times", "of a motion: times of `bodies`, s: every dynamics.write_every steps",
+        [](const Solution& s) {
+          std::vector<double> times;
+          for (const auto& body : trajectory_of(s).bodies)
+            times.push_back(trajectory_of(s).time[cases::index(body.step)]);
+          return py::array_t<double>(py::cast(times));
+        });
   value("bodies", "of a motion: displacements of all nodes now and then, mm, (body_times, nodes, 3)",
         bodies_of);
   value("outcome", "\"stable equilibrium\", \"unstable equilibrium\" or \"unknown\"",
@@ -344,13 +338,9 @@ PYBIND11_MODULE(_springproof, module) {
             return units;
           },
           "of each measure")
-      .def("_solve",
-           [](std::shared_ptr<cases::Scene> s, const std::string& side) { return solve_side(s, side); })
-      .def(
-          "measure",
-          [](std::shared_ptr<cases::Scene> s, const Solution& solution) { return measure(s, solution); },
-          py::arg("solution"),
-          "The value of each measure on a solution of this case; None where it has none, such as the "
-          "frequency of what does not swing.")
+      .def("_solve", solve_side)
+      .def("measure", measure, py::arg("solution"),
+           "The value of each measure on a solution of this case; None where it has none, such as the "
+           "frequency of what does not swing.")
       .def("_compare", compare_text);
 }

@@ -222,21 +222,19 @@ struct Results {
 /// The text of the case that was solved last, on rank 0.
 void print_last(const RunOptions& options, const Results& results) {
   const Comparison& comparison = results.done.back();
+  const cases::Case& definition = comparison.scene.definition;
   write_text(std::cout, comparison, options.meshes > 0 ? MeshTable::printed : MeshTable::left_out);
   if (options.converges_time) write_time_study_text(std::cout, results.time_studies.back());
   if (!options.out.empty())
     write_wrapped(std::cout,
                   fmt::format("  files    {}/results.json, comparison.csv, {}.{}{}", options.out,
-                              comparison.scene.definition.name, n_mpi_ranks() > 1 ? "pvtu" : "vtu",
-                              options.report ? ", " + comparison.scene.definition.name + ".html" : ""),
+                              definition.name, n_mpi_ranks() > 1 ? "pvtu" : "vtu",
+                              options.report ? ", " + definition.name + ".html" : ""),
                   11);
-  const cases::Case& definition = comparison.scene.definition;
-  if (results.rankings.empty())
-    write_verdict_text(std::cout, comparison, next_commands(options, comparison));
-  else {
-    write_verdict_text(std::cout, comparison, {});
-    print_ranking(options, definition, results.rankings.back());
-  }
+  const bool is_ranked = !results.rankings.empty();
+  write_verdict_text(std::cout, comparison,
+                     is_ranked ? std::vector<NextCommand>{} : next_commands(options, comparison));
+  if (is_ranked) print_ranking(options, definition, results.rankings.back());
 }
 
 /// The files of the cases that are solved. Collective.

@@ -1,6 +1,5 @@
 #include "compare/app/commands.hpp"
 
-#include "cases/case/error.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/solve/process_pool.hpp"
 

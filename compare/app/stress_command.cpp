@@ -17,8 +17,6 @@ namespace springproof::compare {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 struct StressOptions {
   std::vector<std::string> names;
   std::string out;
@@ -29,7 +27,7 @@ struct StressOptions {
 
 /// @param name  a hard case's name, or a path
 std::string file_of(const std::string& name) {
-  if (fs::path(name).extension() == ".toml") return name;
+  if (std::filesystem::path(name).extension() == ".toml") return name;
   const std::map<std::string, std::string> hard = case_files_in("hard");
   if (const auto found = hard.find(name); found != hard.end()) return found->second;
   std::vector<std::string> known;

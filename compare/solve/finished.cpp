@@ -30,8 +30,8 @@ std::string identity(const Question& question) {
 }
 
 std::string path_of(const std::string& folder, const Question& question, FileNames names) {
-  const std::string solved = folder + "/solved/";
-  return solved + (names == FileNames::of_cases ? question.scene.definition.name : identity(question));
+  return folder + "/solved/" +
+         (names == FileNames::of_cases ? question.scene.definition.name : identity(question));
 }
 
 /// File of an answer on one of a question's meshes.

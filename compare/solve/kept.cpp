@@ -143,11 +143,10 @@ std::string text_of(const ShardRecord& record) {
 
 ShardRecord record_from(const std::string& text) {
   const auto json = nlohmann::json::parse(text);
-  ShardRecord record;
-  record.shard = {shard_number(json.at("shard")), shard_number(json.at("of"))};
-  json.at("command").get_to(record.command);
-  json.at("questions").get_to(record.questions);
-  json.at("program").get_to(record.program);
+  const ShardRecord record{{shard_number(json.at("shard")), shard_number(json.at("of"))},
+                           json.at("command"),
+                           json.at("questions"),
+                           json.at("program")};
   if (!exists(record.shard))
     throw std::runtime_error(
         fmt::format("there is no shard {} of {}", record.shard.index, record.shard.count));

@@ -211,8 +211,13 @@ TEST_CASE("an expectation is met on its closed interval alone, and never by a va
           "number") {
   cases::Expectation expectation{
       "m", cases::Quantity::error_percent, {-8, 0}, cases::ReferenceKind::published, "", {}};
+  const auto judged = [&](const std::vector<compare::MeasuredValue>& measures) {
+    cases::Scene scene;
+    scene.definition.expectations = {expectation};
+    return compare::judge(scene, {}, measures, nullptr).front();
+  };
   const auto is_met = [&](std::optional<double> error) {
-    return compare::judge(expectation, {{"m", "mm", 1.0, 1.0, error}}).met();
+    return judged({{"m", "mm", 1.0, 1.0, error}}).met();
   };
   CHECK(is_met(-8));
   CHECK(is_met(0));
@@ -220,8 +225,8 @@ TEST_CASE("an expectation is met on its closed interval alone, and never by a va
   CHECK_FALSE(is_met(-8.001));
   CHECK_FALSE(is_met(std::nullopt));
   CHECK_FALSE(is_met(std::numeric_limits<double>::quiet_NaN()));
-  CHECK_FALSE(compare::judge(expectation, {}).met());
-  CHECK(compare::judge(expectation, {{"other", "mm", 1.0, 1.0, -1.0}}).missed == "there is no such measure");
+  CHECK_FALSE(judged({}).met());
+  CHECK(judged({{"other", "mm", 1.0, 1.0, -1.0}}).missed == "there is no such measure");
   expectation.quantity = cases::Quantity::fem;
   expectation.interval = {1, 1};
   CHECK(is_met(std::nullopt)); // fem = 1 is judged, not the error
