@@ -47,31 +47,33 @@ double dot(const double* a, const double* b, std::ptrdiff_t n);
 void apply_blocks(const float* blocks, const float* in, float* out, std::ptrdiff_t size, float keep,
                   float factor, std::ptrdiff_t n);
 
+/// Calls action(i) for i = 0 ... n - 1 on n_threads threads.
+/// @param at_once  how many a thread takes one after the other; 0: all of its own
+template<class Action>
+void on_threads(std::ptrdiff_t n, int n_threads, const Action& action, std::ptrdiff_t at_once = 0) {
+  if (n_threads == 1 || n <= std::max<std::ptrdiff_t>(1, at_once)) { // a region of one thread allocates
+    for (std::ptrdiff_t i = 0; i < n; ++i) action(i);
+    return;
+  }
+  const std::ptrdiff_t chunk = at_once > 0 ? at_once : (n + n_threads - 1) / n_threads;
+#pragma omp parallel for num_threads(n_threads) schedule(static, chunk)
+  for (std::ptrdiff_t i = 0; i < n; ++i) action(i);
+}
+
 /// Fixed pieces of a field: sums that add piece by piece in order do not depend on the number of threads.
 constexpr std::ptrdiff_t piece = 1 << 14;
 
 /// Calls action(first, length) for the pieces of n entries on n_threads threads.
 template<class Action>
 void for_each_piece(std::ptrdiff_t n, int n_threads, const Action& action) {
-  const std::ptrdiff_t n_pieces = (n + piece - 1) / piece;
-  const auto run = [&](std::ptrdiff_t p) { action(p * piece, std::min(piece, n - p * piece)); };
-  if (n_threads == 1 || n_pieces == 1) { // a parallel region of one thread allocates
-    for (std::ptrdiff_t p = 0; p < n_pieces; ++p) run(p);
-    return;
-  }
-#pragma omp parallel for num_threads(n_threads) schedule(static)
-  for (std::ptrdiff_t p = 0; p < n_pieces; ++p) run(p);
+  on_threads((n + piece - 1) / piece, n_threads,
+             [&](std::ptrdiff_t p) { action(p * piece, std::min(piece, n - p * piece)); });
 }
 
 /// Calls action(k) for planes, or layers, from begin to end - 1 on n_threads threads.
 template<class Action>
 void for_each_plane(int begin, int end, int n_threads, const Action& action) {
-  if (n_threads == 1) { // a parallel region of one thread allocates
-    for (int k = begin; k < end; ++k) action(k);
-    return;
-  }
-#pragma omp parallel for num_threads(n_threads) schedule(static)
-  for (int k = begin; k < end; ++k) action(k);
+  on_threads(end - begin, n_threads, [&](std::ptrdiff_t k) { action(begin + static_cast<int>(k)); });
 }
 /// The same for all planes of nodes; small grids are not worth several threads.
 template<class Action>

@@ -23,11 +23,25 @@ void for_each_entry(const Problem& problem, const Action& action) {
   }
 }
 
+/// Values of points as a vector of the direct system, 0 on constrained degrees of freedom.
+Vector on_free(const Problem& problem, const Points& points) {
+  Vector all = to_vector(problem, points);
+  all.tail(all.size() - static_cast<Eigen::Index>(n_unknowns(problem))).setZero();
+  return all;
+}
+
+/// Positions at a displacement.
+Points positions(const Problem& problem, const Vector& displacement) {
+  Points moved = to_points(problem, displacement);
+  for (std::size_t p = 0; p < moved.size(); ++p) moved[p] += problem.lattice.rest[p];
+  return moved;
+}
+
 class DirectSystem : public SpringSystem {
  public:
   explicit DirectSystem(const Problem& problem)
       : problem_(problem), tangent_(problem.lattice, problem.is_constrained),
-        load_(on_free(to_vector(problem, problem.on_all_points(problem.force)))) {
+        load_(on_free(problem, problem.on_all_points(problem.force))) {
     const OneThread one;
     factorisation_.analyse(tangent_.assemble(problem.lattice.rest, TransverseTerm::exact));
   }
@@ -37,9 +51,8 @@ class DirectSystem : public SpringSystem {
   void residual(const Vector& displacement, double load_factor, mechanics::Expect,
                 Vector& residual) override {
     ++work_.force_evaluations;
-    residual =
-        load_factor * load_ +
-        on_free(to_vector(problem_, internal_force_at(problem_.lattice, to_points(problem_, displacement))));
+    residual = load_factor * load_ +
+               on_free(problem_, internal_force_at(problem_.lattice, to_points(problem_, displacement)));
   }
 
   double energy(const Vector& displacement, double load_factor) override {
@@ -173,11 +186,6 @@ class DirectSystem : public SpringSystem {
     for (double& entry : force) entry = normal(generator);
     return force;
   }
-  /// A vector of forces: 0 on supports.
-  Vector on_free(Vector all) const {
-    all.tail(all.size() - tangent_.n_free()).setZero();
-    return all;
-  }
   /// A vector of the free degrees of freedom, and 0 on supports.
   Vector with_supports(const Vector& free) const {
     Vector all = Vector::Zero(load_.size());
@@ -185,17 +193,11 @@ class DirectSystem : public SpringSystem {
     return all;
   }
 
-  Points positions(const Vector& displacement) const {
-    Points moved = to_points(problem_, displacement);
-    for (std::size_t p = 0; p < moved.size(); ++p) moved[p] += problem_.lattice.rest[p];
-    return moved;
-  }
-
   /// Factorises tangent + shift unless that is what is there. @return whether it is positive definite
   bool factorise(const Vector& displacement, TransverseTerm term, double shift) {
     if (factorised_ == std::tie(displacement, term, shift)) return is_definite_;
     const OneThread one;
-    matrix_ = &tangent_.assemble(positions(displacement), term);
+    matrix_ = &tangent_.assemble(positions(problem_, displacement), term);
     diagonal_ = matrix_->diagonal();
     ++work_.factorisations;
     factorised_.reset();
@@ -228,46 +230,19 @@ namespace {
 
 using Matrix = Tangent::Matrix;
 
-/// Values of points as a vector of the direct system, 0 on constrained degrees of freedom.
-Vector on_free(const Problem& problem, const Points& points) {
-  Vector all = to_vector(problem, points);
-  all.tail(all.size() - static_cast<Eigen::Index>(n_unknowns(problem))).setZero();
-  return all;
-}
-
-/// The tangent of a lattice at rest, in the order of the direct system: rows of free degrees of freedom,
-/// columns of all that its vectors have.
+/// The tangent of a lattice at rest, in the order of the direct system.
 Matrix tangent_at_rest(const Problem& problem, const Lattice& lattice) {
-  // The place in a vector of every degree of freedom, from 1; 0: none.
-  const auto n_free = static_cast<Eigen::Index>(n_unknowns(problem));
-  const Eigen::Index n = to_vector(problem, Points(lattice.rest.size(), Eigen::Vector3d::Zero())).size();
-  const Points place = to_points(problem, Vector::LinSpaced(n, 1, static_cast<double>(n)));
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](int row_point, int column_point, const Eigen::Matrix3d& block) {
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) {
-        const auto row = static_cast<int>(std::lround(place[cases::index(row_point)][r])) - 1,
-                   column = static_cast<int>(std::lround(place[cases::index(column_point)][c])) - 1;
-        if (row >= 0 && row < n_free && column >= 0) entries.emplace_back(row, column, block(r, c));
-      }
-  };
-  visit_tangent_blocks(lattice, lattice.rest, TransverseTerm::exact,
-                       [&](int row, int column, const Eigen::Matrix3d& block) {
-                         add(row, column, block);
-                         if (row != column) add(column, row, block.transpose());
-                       });
-  Matrix matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
-Matrix diagonal_matrix(const Vector& diagonal) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index d = 0; d < diagonal.size(); ++d)
-    entries.emplace_back(static_cast<int>(d), static_cast<int>(d), diagonal[d]);
-  Matrix matrix(diagonal.size(), diagonal.size());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  const auto n_dofs = static_cast<Eigen::Index>(problem.is_constrained.size());
+  Tangent whole(lattice, std::vector<bool>(problem.is_constrained.size()));
+  const Matrix lower = whole.assemble(lattice.rest, TransverseTerm::exact),
+               all = lower.selfadjointView<Eigen::Lower>();
+  std::vector<Eigen::Triplet<double>> ones;
+  for_each_entry(problem, [&](std::size_t p, int c, Eigen::Index place) {
+    ones.emplace_back(3 * static_cast<int>(p) + c, static_cast<int>(place), 1);
+  });
+  Matrix order(n_dofs, static_cast<Eigen::Index>(ones.size()));
+  order.setFromTriplets(ones.begin(), ones.end());
+  return order.transpose() * all * order;
 }
 
 class MovingLattice : public MovingSprings {
@@ -278,9 +253,9 @@ class MovingLattice : public MovingSprings {
         problem_(problem), springs_(springs), tangent_(problem.lattice, problem.is_constrained),
         damping_(tangent_at_rest(problem, inertia.damping)) {
     const auto n = tangent_.n_free();
-    free_mass_ = diagonal_matrix(entries().mass.head(n));
+    free_mass_ = entries().mass.head(n).asDiagonal();
     const Matrix block = damping_.topLeftCorner(n, n);
-    free_damping_ = diagonal_matrix(entries().mass_damping.head(n));
+    free_damping_ = entries().mass_damping.head(n).asDiagonal();
     if (block.nonZeros() > 0) free_damping_ += Matrix(block.triangularView<Eigen::Lower>());
     const OneThread one;
     factorisation_.analyse(matrix_at(problem.lattice.rest, TransverseTerm::exact, 0, 0));
@@ -291,11 +266,10 @@ class MovingLattice : public MovingSprings {
     if (tangent_.n_free() == 0) return false; // every point goes where its support goes
     const auto term =
         convexity == mechanics::Convexity::clamped ? TransverseTerm::clamped : TransverseTerm::exact;
-    Points positions = to_points(problem_, at);
-    for (std::size_t p = 0; p < positions.size(); ++p) positions[p] += problem_.lattice.rest[p];
     const OneThread one;
     ++work_.factorisations;
-    if (!factorisation_.factorise(matrix_at(positions, term, terms().mass, terms().damping), 0)) return false;
+    if (!factorisation_.factorise(matrix_at(positions(problem_, at), term, terms().mass, terms().damping), 0))
+      return false;
     step.setZero(at.size());
     const auto invert = [&](const Vector& right_side, Vector& solution) {
       solution.head(tangent_.n_free()) = factorisation_.solve(right_side.head(tangent_.n_free()));
@@ -320,7 +294,8 @@ class MovingLattice : public MovingSprings {
   double reaction(const Vector& at) override { return springs_.reaction(at); }
   bool has_stiffness_damping() const override { return damping_.nonZeros() > 0; }
   void add_stiffness_damping(const Vector& motion, Vector& product) override {
-    if (damping_.nonZeros() > 0) product += damping_ * motion;
+    if (!has_stiffness_damping()) return;
+    product.head(tangent_.n_free()) += (damping_ * motion).head(tangent_.n_free());
   }
 
   /// Tangent + mass M + damping C, lower triangle, of one pattern whatever the factors are.

@@ -8,22 +8,11 @@ namespace springproof::msm::grid {
 using cases::index;
 
 double stiffness_across(const CellSprings& cell, int axes) {
-  switch (axes) {
-  case 1:
-    return cell.edge[0];
-  case 2:
-    return cell.edge[1];
-  case 4:
-    return cell.edge[2];
-  case 6:
-    return cell.face_diagonal[0];
-  case 5:
-    return cell.face_diagonal[1];
-  case 3:
-    return cell.face_diagonal[2];
-  default:
-    return cell.internal_diagonal;
+  for (int a = 0; a < 3; ++a) {
+    if (axes == 1 << a) return cell.edge[index(a)];
+    if (axes == 7 - (1 << a)) return cell.face_diagonal[index(a)]; // all axes but a
   }
+  return cell.internal_diagonal;
 }
 
 CellTangent::CellTangent(const Body& body) : body_(body) {

@@ -1,5 +1,3 @@
-#include "msm/grid/merged_levels.hpp"
-
 #include "cases/mesh/hex_mesh.hpp"
 #include "mechanics/grid/transfer.hpp"
 #include "msm/grid/cell_tangent.hpp"
@@ -20,19 +18,9 @@ constexpr int n_dense_nodes = 600;      ///< most where merging has ended; with 
 
 constexpr std::ptrdiff_t nodes_at_once = 512, cells_at_once = 32; ///< pieces that threads share
 
-/// Calls action for the numbers below n.
-template<class Action>
-void for_each(std::ptrdiff_t n, std::ptrdiff_t at_once, int n_threads, const Action& action) {
-  if (n_threads == 1 || n <= at_once) { // a parallel region of one thread allocates
-    for (std::ptrdiff_t i = 0; i < n; ++i) action(i);
-    return;
-  }
-#pragma omp parallel for num_threads(n_threads) schedule(static, at_once)
-  for (std::ptrdiff_t i = 0; i < n; ++i) action(i);
-}
 template<class Action>
 void for_each_node(std::ptrdiff_t n, int n_threads, const Action& action) {
-  for_each(n, nodes_at_once, n_threads, action);
+  mechanics::grid::on_threads(n, n_threads, action, nodes_at_once);
 }
 
 /// The finest body's cells, without those that are held as a whole.
@@ -236,12 +224,13 @@ class MergedLevel : public mechanics::grid::Level {
       }
     };
     const auto n_coarse = static_cast<std::ptrdiff_t>(stiffness_.size());
-    for_each(n_coarse, cells_at_once, n_threads_, [&](std::ptrdiff_t at) {
+    const auto gather = [&](std::ptrdiff_t at) {
       CellMatrix& coarse = stiffness_[index(at)];
       for (Corners& pair : coarse) pair.setZero();
       for (int f = merged_.first_finer[index(at)]; f < merged_.first_finer[index(at) + 1]; ++f)
         add(index(merged_.finer_cells[index(f)]), coarse);
-    });
+    };
+    mechanics::grid::on_threads(n_coarse, n_threads_, gather, cells_at_once);
   }
 
   void assemble() {

@@ -26,17 +26,10 @@ CellSprings sum(CellSprings a, double factor, const CellSprings& b) {
 /// A body whose springs are a + factor * b.
 Body stiffened(const Body& a, double factor, const Body& b) {
   Body all = a;
-  if (!a.is_uniform() || !b.is_uniform()) {
-    all.springs.clear();
-    for_each_place(a.cells, [&](int i, int j, int k) { all.springs.push_back(a.cell(i, j, k)); });
-  }
-  if (all.is_uniform()) {
-    all.springs.front() = sum(a.springs.front(), factor, b.springs.front());
-  } else {
-    auto springs = all.springs.begin();
-    for_each_place(
-        a.cells, [&](int i, int j, int k) { *springs = sum(*springs, factor, b.cell(i, j, k)), ++springs; });
-  }
+  all.springs.clear();
+  for_each_place(
+      a.is_uniform() && b.is_uniform() ? std::array<int, 3>{1, 1, 1} : a.cells,
+      [&](int i, int j, int k) { all.springs.push_back(sum(a.cell(i, j, k), factor, b.cell(i, j, k))); });
   return all;
 }
 

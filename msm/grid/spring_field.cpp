@@ -2,6 +2,7 @@
 
 #include "cases/mesh/hex_mesh.hpp"
 #include "mechanics/grid/cycle.hpp"
+#include "msm/grid/cell_tangent.hpp"
 
 #include <string_view>
 #include <unordered_map>
@@ -15,6 +16,10 @@ using cases::index;
 /// Stiffness of the spring of one cell that leads along a step.
 double stiffness_along(const CellSprings& cell, const int (&step)[3]) {
   return stiffness_across(cell, (step[0] != 0) + 2 * (step[1] != 0) + 4 * (step[2] != 0));
+}
+
+Eigen::Vector3i vertex_of_cell(int v) {
+  return {v & 1, (v >> 1) & 1, v >> 2};
 }
 
 } // namespace
@@ -176,12 +181,7 @@ void SpringField<Real>::for_each_slab(int components, Real* result, const Run& r
 template<class Real>
 template<class Action>
 void SpringField<Real>::on_threads(std::ptrdiff_t n, const Action& action) const {
-  if (n_threads_ == 1 || springs_.layout.size <= piece) { // a parallel region of one thread allocates
-    for (std::ptrdiff_t s = 0; s < n; ++s) action(s);
-    return;
-  }
-#pragma omp parallel for num_threads(n_threads_) schedule(static)
-  for (std::ptrdiff_t s = 0; s < n; ++s) action(s);
+  mechanics::grid::on_threads(n, springs_.layout.size <= piece ? 1 : n_threads_, action);
 }
 
 template<class Real>
@@ -260,34 +260,29 @@ double SpringField<Real>::energy(const Field<Real>& displacement) const {
   return sum;
 }
 
+/// Adds up cells, each as a lattice of its own.
 template<class Real>
 double SpringField<Real>::small_motion_energy(const Field<Real>& motion) const {
-  const auto in_cell = [&](const CellSprings& cell, const Eigen::Matrix<double, 3, 8>& u) {
-    const auto step_between = [](int v, int w) {
-      return Eigen::Vector3i((w & 1) - (v & 1), ((w >> 1) & 1) - ((v >> 1) & 1), (w >> 2) - (v >> 2));
-    };
-    double sum = 0;
-    for (int v = 0; v < 8; ++v)
-      for (int w = v + 1; w < 8; ++w) {
-        const Eigen::Vector3i step = step_between(v, w);
-        const Eigen::Vector3d along = step.cast<double>().cwiseProduct(body_.spacing).normalized();
-        const double elongation = along.dot(u.col(w) - u.col(v));
-        sum += 0.5 * stiffness_along(cell, {step[0], step[1], step[2]}) * elongation * elongation;
-      }
-    double change = 0; // relative change of volume
-    for (int v = 0; v < 8; ++v)
-      for (int a = 0; a < 3; ++a) change += ((v >> a) & 1 ? 0.25 : -0.25) * u(a, v) / body_.spacing[a];
-    return sum + 0.5 * cell.volume * body_.spacing.prod() * change * change;
-  };
+  Lattice alone;
+  alone.volume_cells = {{{0, 1, 2, 3, 4, 5, 6, 7}, 0, body_.spacing.prod()}};
+  for (int v = 0; v < 8; ++v)
+    alone.rest.push_back(vertex_of_cell(v).cast<double>().cwiseProduct(body_.spacing));
+  for (int v = 0; v < 8; ++v)
+    for (int w = v + 1; w < 8; ++w)
+      alone.links.push_back({v, w, {0, (alone.rest[index(w)] - alone.rest[index(v)]).norm()}});
+  Points moved(8);
   double sum = 0;
   for_each_place(body_.cells, [&](int i, int j, int k) {
     if (body_.part && !body_.part->owns(i, j, k)) return;
-    Eigen::Matrix<double, 3, 8> u;
-    for (int v = 0; v < 8; ++v)
+    const CellSprings& cell = body_.cell(i, j, k);
+    for (Link& link : alone.links) link.spring.stiffness = stiffness_across(cell, link.i ^ link.j);
+    alone.volume_cells.front().stiffness = cell.volume;
+    for (int v = 0; v < 8; ++v) {
+      const Eigen::Vector3i at = Eigen::Vector3i(i, j, k) + vertex_of_cell(v);
       for (int a = 0; a < 3; ++a)
-        u(a, v) =
-            static_cast<double>(motion[body_.layout.at(i + (v & 1), j + ((v >> 1) & 1), k + (v >> 2), a)]);
-    sum += in_cell(body_.cell(i, j, k), u);
+        moved[index(v)][a] = static_cast<double>(motion[body_.layout.at(at[0], at[1], at[2], a)]);
+    }
+    sum += msm::small_motion_energy(alone, moved);
   });
   if (body_.part) body_.part->ranks->sum(&sum, 1);
   return sum;

@@ -1,6 +1,6 @@
 #include "msm/grid/spring_levels.hpp"
 
-#include "msm/grid/merged_levels.hpp"
+#include "msm/grid/merged_cells.hpp"
 #include "msm/grid/transfer.hpp"
 
 #include <cmath>

@@ -18,7 +18,7 @@ constexpr mechanics::grid::Chebyshev smoother_in_motion{2, 4};
 /// Approximate inverse, but for a factor, of the clamped tangent, plus a diagonal if there is one: a
 /// multigrid cycle. Coarse lattices are rediscretised at the sampled displacement, down to few enough nodes
 /// for a dense factorisation; for bodies with gaps or several stiffnesses they are merged cells
-/// (merged_levels.hpp). Coarse diagonals are the fine one restricted, as masses are; the cycle ends at a
+/// (merged_cells.hpp). Coarse diagonals are the fine one restricted, as masses are; the cycle ends at a
 /// level where the diagonal holds all eigenvalues in the smoother's range.
 class SpringLevels {
  public:
