@@ -36,7 +36,7 @@ Character character_at(const std::string& text, std::size_t at) {
   return {code, static_cast<std::size_t>(end - begin), true};
 }
 
-std::string escaped(char32_t code) {
+std::string in_escapes(char32_t code) {
   if (code == '\n') return "\\n";
   if (code == '\r') return "\\r";
   return code < 0x100 ? fmt::format("\\x{:02x}", static_cast<unsigned>(code))
@@ -55,7 +55,7 @@ std::string one_line(const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
     const auto [code, size, is_valid] = character_at(text, at);
     const bool is_command = (at == begin && code == ':') || (code == '#' && at > 0 && text[at - 1] == '#');
-    line += is_valid && is_shown(code) && !is_command ? text.substr(at, size) : escaped(code);
+    line += is_valid && is_shown(code) && !is_command ? text.substr(at, size) : in_escapes(code);
     at += size;
   }
   return line;
