@@ -66,8 +66,8 @@ using Positions = std::array<Eigen::Vector3d, n>;
 /// Two points joined by a spring. Springs of one law that cells share are one link with the sum of the cells'
 /// stiffnesses.
 ///
-/// The terms of a lattice are of several kinds: links, VolumeCell, Tetrahedron. Every kind has, as functions
-/// of its nodes' positions x, the `energy`, N mm; the `forces` on the nodes, N, minus its gradient; the
+/// The terms of a lattice are of several kinds: links, VolumeCell, Tetrahedron. Every kind has, by its nodes'
+/// positions x, the `energy`, N mm; the `forces` on the nodes, N, minus its gradient; the
 /// `tangent`, its second derivative: a function that returns the 3x3 block of two nodes, N/mm, clamped such
 /// that the whole is positive semidefinite where no stiffness is negative; and the `small_motion_energy` of a
 /// motion from rest, to second order. Its `edges` tell how much it is deformed.
