@@ -179,7 +179,15 @@ TetrahedronMatrix Tetrahedron::tangent_matrix(const TetrahedronPositions& x, Tra
 
 namespace {
 
-/// The nodes of a term as seen from the first.
+/// The nodes of a term as seen from the first, at positions or displaced from rest.
+template<std::size_t n>
+SPRINGPROOF_INLINE Positions<n> seen(const std::array<int, n>& nodes, const Points& positions) {
+  if constexpr (n == 2) // a spring takes the difference of its ends itself
+    return {positions[index(nodes[0])], positions[index(nodes[1])]};
+  Positions<n> x = at_nodes(nodes, positions);
+  for (std::size_t v = n; v-- > 0;) x[v] -= x[0];
+  return x;
+}
 template<class Nodes>
 auto seen(const Nodes& nodes, const Points& rest, const Points& displacement) {
   auto x = at_nodes(nodes, rest);
@@ -197,20 +205,33 @@ double sum_over_terms(const Lattice& lattice, const Energy& energy_of) {
   return sum;
 }
 
-double energy_of(const Lattice& lattice, const Points& rest, const Points& displacement) {
-  return sum_over_terms(lattice, [&](const auto& term, const auto& nodes) {
-    return term.energy(seen(nodes, rest, displacement));
-  });
+/// @param points  positions, or rest and displacement
+template<class... Places>
+double energy_of(const Lattice& lattice, const Places&... points) {
+  return sum_over_terms(
+      lattice, [&](const auto& term, const auto& nodes) { return term.energy(seen(nodes, points...)); });
 }
 
-Points force_of(const Lattice& lattice, const Points& rest, const Points& displacement) {
-  Points force(rest.size(), Vector3d::Zero());
+template<class Term, class... Places>
+void add_forces(const Term& term, Points& force, const Places&... points) {
+  const auto forces = term.forces(seen(term.nodes, points...));
+  for (std::size_t v = 0; v < term.nodes.size(); ++v) force[index(term.nodes[v])] += forces[v];
+}
+/// A spring's two forces are one vector: by way of an array they take a tenth longer.
+template<class... Places>
+void add_forces(const Link& link, Points& force, const Places&... points) {
+  const auto x = seen(nodes_of(link), points...);
+  const Vector3d pull = spring_force(x[1] - x[0], link.spring);
+  force[index(link.i)] += pull;
+  force[index(link.j)] -= pull;
+}
+
+/// @param points  positions, or rest and displacement
+template<class... Places>
+Points force_of(const Lattice& lattice, const Places&... points) {
+  Points force(lattice.rest.size(), Vector3d::Zero());
   for_each_kind(lattice, [&](const auto& terms) {
-    for (const auto& term : terms) {
-      const auto nodes = nodes_of(term);
-      const auto forces = term.forces(seen(nodes, rest, displacement));
-      for (std::size_t v = 0; v < nodes.size(); ++v) force[index(nodes[v])] += forces[v];
-    }
+    for (const auto& term : terms) add_forces(term, force, points...);
   });
   return force;
 }
@@ -258,7 +279,7 @@ Points tangent_product(const Lattice& lattice, const Points& displacement, doubl
 } // namespace
 
 double energy(const Lattice& lattice, const Points& positions) {
-  return energy_of(lattice, positions, Points(positions.size(), Vector3d::Zero()));
+  return energy_of(lattice, positions);
 }
 
 double energy_at(const Lattice& lattice, const Points& displacement) {
@@ -276,7 +297,7 @@ double small_motion_energy(const Lattice& lattice, const Points& motion) {
 }
 
 Points internal_force(const Lattice& lattice, const Points& positions) {
-  return force_of(lattice, positions, Points(positions.size(), Vector3d::Zero()));
+  return force_of(lattice, positions);
 }
 
 Points internal_force_at(const Lattice& lattice, const Points& displacement) {
