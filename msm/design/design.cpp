@@ -124,10 +124,6 @@ DesignResult of_terms(std::vector<CellTerms> kinds) {
   return result;
 }
 
-BodyTerms* terms_in(DesignResult& result) {
-  return std::get_if<BodyTerms>(&result.springs.kind);
-}
-
 DesignResult in_cell(const DesignRequest& request, const CellStiffness& four, const CubicModuli& moduli) {
   const auto k = by_axis_where_needed(four, moduli, split(request), request.cell);
   return k ? of_terms({terms_by_axis(*k)}) : DesignResult{four};
@@ -372,7 +368,7 @@ DesignResult design(const DesignRequest& request) {
   DesignResult result = designed(request);
   if (const auto law = law_of(options)) result.stiffness.exponents = law;
   std::vector<CellTerms> kinds{terms_of(result.stiffness)};
-  if (BodyTerms* terms = terms_in(result)) {
+  if (auto* const terms = std::get_if<BodyTerms>(&result.springs.kind)) {
     if (const auto& law = result.stiffness.exponents)
       for (CellTerms& kind : terms->kinds) set_exponents(kind, *law);
     kinds = terms->kinds;
