@@ -217,11 +217,16 @@ void add_forces(const Term& term, Points& force, const Places&... points) {
   const auto forces = term.forces(seen(term.nodes, points...));
   for (std::size_t v = 0; v < term.nodes.size(); ++v) force[index(term.nodes[v])] += forces[v];
 }
-/// A spring's two forces are one vector: by way of an array they take a tenth longer.
+Vector3d between(const Link& link, const Points& positions) {
+  return positions[index(link.j)] - positions[index(link.i)];
+}
+Vector3d between(const Link& link, const Points& rest, const Points& displacement) {
+  return between(link, rest) + between(link, displacement);
+}
+/// A spring's two forces are one vector: by way of arrays they take a tenth longer.
 template<class... Places>
 void add_forces(const Link& link, Points& force, const Places&... points) {
-  const auto x = seen(nodes_of(link), points...);
-  const Vector3d pull = spring_force(x[1] - x[0], link.spring);
+  const Vector3d pull = spring_force(between(link, points...), link.spring);
   force[index(link.i)] += pull;
   force[index(link.j)] -= pull;
 }
