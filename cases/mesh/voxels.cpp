@@ -115,7 +115,7 @@ Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks) {
 }
 
 std::size_t n_open_edges(const TriangleMesh& surface) {
-  std::map<std::array<int, 2>, long> balance; // of edges between two vertices: one way minus the other way
+  std::map<std::array<int, 2>, long> balance; // edges between two vertices: one way minus the other way
   for (const auto& triangle : surface.triangles)
     for (std::size_t v = 0; v < 3; ++v) {
       const int a = triangle[v], b = triangle[(v + 1) % 3];

@@ -50,7 +50,7 @@ double component_of(const cases::SymmetricTensor& tensor, cases::TensorComponent
 
 double of_region(const cases::measures::OfCells& measure, const cases::Scene& scene,
                  const cases::Solution& solution, const std::vector<cases::SymmetricTensor>& of_cells) {
-  std::set<std::array<int, 4>> faces; // of the region
+  std::set<std::array<int, 4>> faces; // the region's
   if (measure.has_region())
     for (const auto& face : cases::select(scene.mesh, measure.region).faces)
       faces.insert(cases::sorted(face));

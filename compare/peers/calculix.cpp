@@ -107,7 +107,7 @@ std::string last_error(std::istream& in) {
 struct CalculixRun {
   cases::Scene refined; ///< what it solved
   std::vector<CalculixOutput> blocks;
-  int newton_iterations; ///< of all increments
+  int newton_iterations; ///< in all increments
   std::string error;     ///< the last that it printed
 };
 

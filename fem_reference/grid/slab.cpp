@@ -3,6 +3,7 @@
 #include "cases/mesh/hex_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <type_traits>
 
 namespace springproof::fem_reference::grid {
@@ -138,16 +139,19 @@ template<class Real>
 void Slab::complete_layers(Real* layers, std::ptrdiff_t n) const {
   if (n_ranks() == 1) return;
   if (is_gathered_) return gather(layer_begins_, layers, n, communicator_);
+  std::array<MPI_Request, 2> requests{MPI_REQUEST_NULL, MPI_REQUEST_NULL}; // both are under way at once
   for (const int upper : {rank_, rank_ + 1}) {
     const int other = upper == rank_ ? rank_ - 1 : upper;
     if (other < 0 || other == n_ranks()) continue;
     const bool is_upper = upper == rank_, upper_has_it = layer_begin(upper) < begin(upper);
     Real* const layer = layers + (begin(upper) - 1 - first_) * n;
+    MPI_Request& request = requests[index(upper - rank_)];
     if (is_upper == upper_has_it)
-      MPI_Send(layer, static_cast<int>(n), type_of<Real>(), other, 0, communicator_);
+      MPI_Isend(layer, static_cast<int>(n), type_of<Real>(), other, 0, communicator_, &request);
     else
-      MPI_Recv(layer, static_cast<int>(n), type_of<Real>(), other, 0, communicator_, MPI_STATUS_IGNORE);
+      MPI_Irecv(layer, static_cast<int>(n), type_of<Real>(), other, 0, communicator_, &request);
   }
+  MPI_Waitall(2, requests.data(), MPI_STATUSES_IGNORE);
 }
 
 void Slab::add_to_next(const Layout& layout, double* field) const {

@@ -164,7 +164,7 @@ class Fit {
       fit.errors.push_back(std::sqrt(squares / path.size_squared));
       fit.objective += path.weight * squares / path.size_squared;
     }
-    if (lambda_) // of the lattice: C12 = C44 + k_v
+    if (lambda_) // the lattice's: C12 = C44 + k_v
       fit.stiffness.volume = *lambda_ - averaged_moduli(cell_elasticity(fit.stiffness, cube(edge_))).c44;
     return fit;
   }

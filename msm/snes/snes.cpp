@@ -147,7 +147,7 @@ class SnesProblem : public petsc::DistributedProblem<> {
   const Problem& problem_;
   MPI_Comm communicator_;
   PetscInt first_ = 0, n_own_ = PETSC_DECIDE; ///< points of this rank
-  std::vector<int> n_entries_, first_entry_;  ///< of every rank
+  std::vector<int> n_entries_, first_entry_;  ///< every rank's
   std::vector<PetscInt> constrained_;         ///< owned degrees of freedom
   Lattice lattice_;                           ///< this rank's terms
   Vector applied_;                            ///< forces at full load on free degrees of freedom, N
