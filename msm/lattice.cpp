@@ -159,14 +159,14 @@ TetrahedronPositions Tetrahedron::forces(const TetrahedronPositions& x) const {
   return all;
 }
 
-TetrahedronMatrix Tetrahedron::tangent_matrix(const TetrahedronPositions& x, TransverseTerm term) const {
+TetrahedronMatrix Tetrahedron::tangent_matrix(const TetrahedronPositions& x, Clamp clamp) const {
   const EdgeValues tension = stiffness * squared_length_changes(x);
   Eigen::Matrix<double, 12, 6> gradients = Eigen::Matrix<double, 12, 6>::Zero(); // gradients of Delta_e
   TetrahedronMatrix tangent = TetrahedronMatrix::Zero();
   for_each_edge(x, [&](Eigen::Index e, int a, int b, const Vector3d& d) {
     gradients.block<3, 1>(3 * a, e) = -2 * d;
     gradients.block<3, 1>(3 * b, e) = 2 * d;
-    if (term == TransverseTerm::clamped && tension[e] < 0) return;
+    if (clamp == Clamp::yes && tension[e] < 0) return;
     const Matrix3d geometric = 2 * tension[e] * Matrix3d::Identity();
     tangent.block<3, 3>(3 * a, 3 * a) += geometric;
     tangent.block<3, 3>(3 * b, 3 * b) += geometric;
@@ -274,7 +274,7 @@ Points tangent_product(const Lattice& lattice, const Points& displacement, doubl
   Points at = lattice.rest, product(at.size(), Vector3d::Zero());
   for (std::size_t p = 0; p < at.size(); ++p)
     at[p] = (lattice.rest[p] - lattice.rest[0]) + part * displacement[p];
-  visit_tangent_blocks(lattice, at, TransverseTerm::exact, [&](int row, int column, const Matrix3d& block) {
+  visit_tangent_blocks(lattice, at, Clamp::no, [&](int row, int column, const Matrix3d& block) {
     product[index(row)] += block * displacement[index(column)];
     if (row != column) product[index(column)] += block.transpose() * displacement[index(row)];
   });

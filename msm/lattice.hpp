@@ -81,13 +81,9 @@ struct Link {
     const double elongation = (rest[1] - rest[0]).normalized().dot(motion[1] - motion[0]);
     return 0.5 * spring.stiffness * elongation * elongation;
   }
-  Positions<2> forces(const Positions<2>& x) const {
-    const Eigen::Vector3d force = spring_force(x[1] - x[0], spring);
-    return {force, -force};
-  }
-  auto tangent(const Positions<2>& x, TransverseTerm term) const {
-    return [block = spring_stiffness(x[1] - x[0], spring, term)](std::size_t a,
-                                                                 std::size_t b) -> Eigen::Matrix3d {
+  auto tangent(const Positions<2>& x, Clamp clamp) const {
+    return [block = spring_stiffness(x[1] - x[0], spring, clamp)](std::size_t a,
+                                                                  std::size_t b) -> Eigen::Matrix3d {
       return a == b ? block : Eigen::Matrix3d(-block);
     };
   }
@@ -109,13 +105,13 @@ struct VolumeCell {
   double energy(const CellPositions& x) const { return stiffness * rest_volume * law(x).integral; }
   double small_motion_energy(const CellPositions& rest, const CellPositions& motion) const;
   CellPositions forces(const CellPositions& x) const;
-  auto tangent(const CellPositions& x, TransverseTerm term) const {
+  auto tangent(const CellPositions& x, Clamp clamp) const {
     const VolumeLaw at = law(x);
     return [=, pressure = stiffness * at.pressure, slope = stiffness / rest_volume * at.slope,
             gradient = trilinear_volume_gradient(x),
             second = trilinear_volume_second_derivative(x)](std::size_t a, std::size_t b) -> Eigen::Matrix3d {
       Eigen::Matrix3d block = slope * gradient[a] * gradient[b].transpose();
-      if (term == TransverseTerm::exact) block += pressure * second[a][b];
+      if (clamp == Clamp::no) block += pressure * second[a][b];
       return block;
     };
   }
@@ -160,9 +156,9 @@ struct Tetrahedron {
   TetrahedronPositions forces(const TetrahedronPositions& x) const;
   /// Degree of freedom 3*vertex + component. Clamped, no edge under compression has its geometric part, and
   /// the matrix is positive semidefinite where K is.
-  TetrahedronMatrix tangent_matrix(const TetrahedronPositions& x, TransverseTerm term) const;
-  auto tangent(const TetrahedronPositions& x, TransverseTerm term) const {
-    return [matrix = tangent_matrix(x, term)](std::size_t a, std::size_t b) -> Eigen::Matrix3d {
+  TetrahedronMatrix tangent_matrix(const TetrahedronPositions& x, Clamp clamp) const;
+  auto tangent(const TetrahedronPositions& x, Clamp clamp) const {
+    return [matrix = tangent_matrix(x, clamp)](std::size_t a, std::size_t b) -> Eigen::Matrix3d {
       return matrix.block<3, 3>(static_cast<Eigen::Index>(3 * a), static_cast<Eigen::Index>(3 * b));
     };
   }

@@ -45,7 +45,7 @@ SpringBody damping_springs(const cases::Scene& scene, const SpringBody& springs)
 mechanics::VibratingBody vibrating_body(const cases::Scene& scene, const Lattice& lattice) {
   Tangent tangent(lattice, cases::constrained_dofs(scene));
   mechanics::VibratingBody body;
-  body.stiffness = tangent.assemble(lattice.rest, TransverseTerm::exact).selfadjointView<Eigen::Lower>();
+  body.stiffness = tangent.assemble(lattice.rest, Clamp::no).selfadjointView<Eigen::Lower>();
   const std::vector<double> masses = cases::point_masses(scene);
   const std::vector<int>& number = tangent.free_number();
   body.mesh_dof.resize(cases::index(tangent.n_free()));

@@ -61,8 +61,7 @@ class SpringSystem : public mechanics::NonlinearProblem {
   bool direction(const Vector& at, const Vector& residual, double, double forcing,
                  mechanics::Convexity convexity, Vector& step) override {
     using mechanics::Convexity;
-    return solve(at, residual, forcing,
-                 convexity == Convexity::clamped ? TransverseTerm::clamped : TransverseTerm::exact,
+    return solve(at, residual, forcing, convexity == Convexity::clamped ? Clamp::yes : Clamp::no,
                  convexity == Convexity::shifted ? 2 * std::abs(lowest_mode(at)->eigenvalue) : 0, step);
   }
   Work work() const override { return work_; }
@@ -75,7 +74,7 @@ class SpringSystem : public mechanics::NonlinearProblem {
   Work work_;
 
   /// Solves (tangent + shift) * step = residual, as direction() asks for.  @param shift  N/mm
-  virtual bool solve(const Vector& displacement, const Vector& residual, double forcing, TransverseTerm term,
+  virtual bool solve(const Vector& displacement, const Vector& residual, double forcing, Clamp clamp,
                      double shift, Vector& step) = 0;
 };
 

@@ -80,19 +80,17 @@ inline Eigen::Vector3d spring_force(const Eigen::Vector3d& d, const Spring& spri
          d;
 }
 
-enum class TransverseTerm { exact, clamped };
-
 /// Second derivative of spring_energy() with respect to d:
 ///   dT/d|d| n n^T + T/|d| (I - n n^T),  n = d/|d|.
 /// The transverse factor is negative in a compressed spring, the other one where a power-log spring has
 /// passed its largest tension; clamped, both are at least 0 and the matrix positive semidefinite.
 /// @param d  mm  @return N/mm, symmetric; the (i, i) and (j, j) blocks of the tangent get it, (i, j) its
 /// negative
-inline Eigen::Matrix3d spring_stiffness(const Eigen::Vector3d& d, const Spring& spring, TransverseTerm term) {
+inline Eigen::Matrix3d spring_stiffness(const Eigen::Vector3d& d, const Spring& spring, Clamp clamp) {
   const double squared = d.squaredNorm(), k = spring.stiffness;
   const SpringTangent<double> tangent = with_law(spring, [&](const auto& law) {
-    return term == TransverseTerm::clamped ? law.template tangent<Clamp::yes>(squared, k)
-                                           : law.template tangent<Clamp::no>(squared, k);
+    return clamp == Clamp::yes ? law.template tangent<Clamp::yes>(squared, k)
+                               : law.template tangent<Clamp::no>(squared, k);
   });
   return tangent.transverse * Eigen::Matrix3d::Identity() + tangent.along * d * d.transpose();
 }

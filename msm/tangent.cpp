@@ -12,7 +12,7 @@ Tangent::Tangent(const Lattice& lattice, const std::vector<bool>& is_constrained
   // Calls action(row, column, whether the lower triangle has it) for the nine entries of every block.
   const auto visit = [&](const auto& action) {
     const auto free = [&](int point, int c) { return free_number_[cases::index(3 * point + c)]; };
-    visit_tangent_blocks(lattice_, lattice_.rest, TransverseTerm::clamped,
+    visit_tangent_blocks(lattice_, lattice_.rest, Clamp::yes,
                          [&](int row_point, int column_point, const Eigen::Matrix3d&) {
                            for (int c = 0; c < 3; ++c)
                              for (int r = 0; r < 3; ++r) {
@@ -34,11 +34,11 @@ Tangent::Tangent(const Lattice& lattice, const std::vector<bool>& is_constrained
   });
 }
 
-const Tangent::Matrix& Tangent::assemble(const Points& positions, TransverseTerm term) {
+const Tangent::Matrix& Tangent::assemble(const Points& positions, Clamp clamp) {
   double* values = matrix_.valuePtr();
   std::fill(values, values + matrix_.nonZeros(), 0.0);
   const int* slot = slots_.data();
-  visit_tangent_blocks(lattice_, positions, term, [&](int, int, const Eigen::Matrix3d& block) {
+  visit_tangent_blocks(lattice_, positions, clamp, [&](int, int, const Eigen::Matrix3d& block) {
     for (int entry = 0; entry < 9; ++entry, ++slot)
       if (*slot >= 0) values[*slot] += block.data()[entry];
   });

@@ -10,12 +10,11 @@ namespace springproof::msm {
 /// contribution with row point >= column point (the matrix is symmetric). Clamped, the sum is positive
 /// semidefinite.
 template<class Sink>
-void visit_tangent_blocks(const Lattice& lattice, const Points& positions, TransverseTerm term,
-                          const Sink& sink) {
+void visit_tangent_blocks(const Lattice& lattice, const Points& positions, Clamp clamp, const Sink& sink) {
   for_each_kind(lattice, [&](const auto& terms) {
     for (const auto& of : terms) {
       const auto nodes = nodes_of(of);
-      const auto block = of.tangent(at_nodes(nodes, positions), term);
+      const auto block = of.tangent(at_nodes(nodes, positions), clamp);
       for (std::size_t a = 0; a < nodes.size(); ++a)
         for (std::size_t b = 0; b < nodes.size(); ++b)
           if (nodes[a] >= nodes[b]) sink(nodes[a], nodes[b], block(a, b));
@@ -34,7 +33,7 @@ class Tangent {
   Tangent(const Lattice& lattice, const std::vector<bool>& is_constrained);
 
   /// Lower triangle, N/mm, at these positions (mm).
-  const Matrix& assemble(const Points& positions, TransverseTerm term);
+  const Matrix& assemble(const Points& positions, Clamp clamp);
 
   int n_free() const { return n_free_; }
   /// Number among the free ones of degree of freedom 3*point + component, or -1.

@@ -19,8 +19,8 @@ extern "C" __attribute__((noipa)) void springproof_counted_call(const std::funct
 
 namespace {
 
+using msm::Clamp;
 using msm::grid::Body;
-using msm::grid::Clamp;
 using msm::grid::Field;
 
 /// One call of a kernel on fields that stay as they are.

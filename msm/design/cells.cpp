@@ -92,7 +92,7 @@ double cube_edge(const CellVertices& vertices) {
 CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellTerms& terms) {
   const Lattice lattice = cell_lattice(terms, vertices);
   CellMatrix matrix = CellMatrix::Zero();
-  visit_tangent_blocks(lattice, lattice.rest, TransverseTerm::exact,
+  visit_tangent_blocks(lattice, lattice.rest, Clamp::no,
                        [&](int row, int column, const Eigen::Matrix3d& block) {
                          matrix.block<3, 3>(3 * row, 3 * column) += block;
                          if (row != column) matrix.block<3, 3>(3 * column, 3 * row) += block.transpose();
@@ -229,7 +229,7 @@ DynamicalMatrix dynamical_matrix(const CellStiffness& stiffness, double edge, co
   DynamicalMatrix matrix;
   matrix.blocks.fill(Eigen::Matrix3d::Zero());
   for (const auto& [d, spring] : node_springs(stiffness, edge)) {
-    const Eigen::Matrix3d block = spring_stiffness(edge * f * d, spring, TransverseTerm::exact);
+    const Eigen::Matrix3d block = spring_stiffness(edge * f * d, spring, Clamp::no);
     matrix.block(Eigen::Vector3d::Zero()) += 2 * block;
     matrix.block(d) -= block;
     matrix.block(-d) -= block;

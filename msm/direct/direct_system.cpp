@@ -43,7 +43,7 @@ class DirectSystem : public SpringSystem {
       : problem_(problem), tangent_(problem.lattice, problem.is_constrained),
         load_(on_free(problem, problem.on_all_points(problem.force))) {
     const OneThread one;
-    factorisation_.analyse(tangent_.assemble(problem.lattice.rest, TransverseTerm::exact));
+    factorisation_.analyse(tangent_.assemble(problem.lattice.rest, Clamp::no));
   }
 
   const Vector& load() const override { return load_; }
@@ -61,13 +61,13 @@ class DirectSystem : public SpringSystem {
   }
 
   std::optional<bool> is_stable(const Vector& displacement) override {
-    return factorise(displacement, TransverseTerm::exact, 0);
+    return factorise(displacement, Clamp::no, 0);
   }
 
   /// Preconditions by the inverse, shifted until the tangent is positive definite.
   std::optional<Mode> lowest_mode(const Vector& displacement) override {
     double shift = 0;
-    while (!factorise(displacement, TransverseTerm::exact, shift)) {
+    while (!factorise(displacement, Clamp::no, shift)) {
       const double largest = diagonal_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
       if (!(largest > no_stiffness && shift < 1e3 * largest)) return std::nullopt; // or it is not a number
       shift = shift == 0 ? 1e-9 * largest : 10 * shift;
@@ -87,7 +87,7 @@ class DirectSystem : public SpringSystem {
   mechanics::RestState rest_state() override {
     using mechanics::RestState;
     const Vector rest = Vector::Zero(load_.size());
-    const bool is_definite = factorise(rest, TransverseTerm::exact, 0);
+    const bool is_definite = factorise(rest, Clamp::no, 0);
     const double largest = diagonal_.cwiseAbs().maxCoeff();
     if (!(largest > no_stiffness)) return RestState::mechanism;
     if (is_definite && factorisation_.smallest_pivot_ratio(diagonal_) > rounding) return RestState::sound;
@@ -95,18 +95,18 @@ class DirectSystem : public SpringSystem {
     if (is_definite) {
       const Vector force = with_supports(random_force(3));
       Vector motion;
-      const bool moves = solve(rest, force, 0, TransverseTerm::exact, 0, motion);
+      const bool moves = solve(rest, force, 0, Clamp::no, 0, motion);
       const double stored = moves ? small_motion_energy(problem_.lattice, to_points(problem_, motion)) : 0;
       return stored > no_energy * largest * motion.squaredNorm() ? RestState::sound : RestState::mechanism;
     }
     // Positive semidefinite or indefinite? A shift that rounding could explain tells them apart.
     const double shift = rounding * largest;
-    if (factorise(rest, TransverseTerm::exact, shift)) return RestState::mechanism;
+    if (factorise(rest, Clamp::no, shift)) return RestState::mechanism;
     if (has_negative_terms()) return RestState::unstable;
     // Springs that are pressed together push aside what no spring holds, and what some hold if they push
     // more.
-    const bool is_held = factorise(rest, TransverseTerm::clamped, 0) &&
-                         factorisation_.smallest_pivot_ratio(diagonal_) > rounding;
+    const bool is_held =
+        factorise(rest, Clamp::yes, 0) && factorisation_.smallest_pivot_ratio(diagonal_) > rounding;
     return is_held ? RestState::unstable : RestState::mechanism;
   }
 
@@ -148,7 +148,7 @@ class DirectSystem : public SpringSystem {
   Vector load_, diagonal_;
   const Tangent::Matrix* matrix_ = nullptr; ///< the tangent, as it was assembled last
   Factorisation factorisation_;
-  std::optional<std::tuple<Vector, TransverseTerm, double>> factorised_; ///< displacement, term and shift
+  std::optional<std::tuple<Vector, Clamp, double>> factorised_; ///< displacement, term and shift
   bool is_definite_ = false;
 
   bool has_negative_springs() const {
@@ -170,9 +170,9 @@ class DirectSystem : public SpringSystem {
     return std::sqrt(squared);
   }
 
-  bool solve(const Vector& displacement, const Vector& residual, double /*forcing*/, TransverseTerm term,
+  bool solve(const Vector& displacement, const Vector& residual, double /*forcing*/, Clamp clamp,
              double shift, Vector& step) override {
-    if (!factorise(displacement, term, shift)) return false;
+    if (!factorise(displacement, clamp, shift)) return false;
     const OneThread one;
     step = with_supports(factorisation_.solve(residual.head(tangent_.n_free())));
     return step.allFinite() && step.dot(residual) > 0;
@@ -194,15 +194,15 @@ class DirectSystem : public SpringSystem {
   }
 
   /// Factorises tangent + shift unless that is what is there. @return whether it is positive definite
-  bool factorise(const Vector& displacement, TransverseTerm term, double shift) {
-    if (factorised_ == std::tie(displacement, term, shift)) return is_definite_;
+  bool factorise(const Vector& displacement, Clamp clamp, double shift) {
+    if (factorised_ == std::tie(displacement, clamp, shift)) return is_definite_;
     const OneThread one;
-    matrix_ = &tangent_.assemble(positions(problem_, displacement), term);
+    matrix_ = &tangent_.assemble(positions(problem_, displacement), clamp);
     diagonal_ = matrix_->diagonal();
     ++work_.factorisations;
     factorised_.reset();
     is_definite_ = factorisation_.factorise(*matrix_, shift);
-    factorised_.emplace(displacement, term, shift);
+    factorised_.emplace(displacement, clamp, shift);
     return is_definite_;
   }
 };
@@ -234,8 +234,7 @@ using Matrix = Tangent::Matrix;
 Matrix tangent_at_rest(const Problem& problem, const Lattice& lattice) {
   const auto n_dofs = static_cast<Eigen::Index>(problem.is_constrained.size());
   Tangent whole(lattice, std::vector<bool>(problem.is_constrained.size()));
-  const Matrix lower = whole.assemble(lattice.rest, TransverseTerm::exact),
-               all = lower.selfadjointView<Eigen::Lower>();
+  const Matrix lower = whole.assemble(lattice.rest, Clamp::no), all = lower.selfadjointView<Eigen::Lower>();
   std::vector<Eigen::Triplet<double>> ones;
   for_each_entry(problem, [&](std::size_t p, int c, Eigen::Index place) {
     ones.emplace_back(3 * static_cast<int>(p) + c, static_cast<int>(place), 1);
@@ -258,17 +257,17 @@ class MovingLattice : public MovingSprings {
     free_damping_ = entries().mass_damping.head(n).asDiagonal();
     if (block.nonZeros() > 0) free_damping_ += Matrix(block.triangularView<Eigen::Lower>());
     const OneThread one;
-    factorisation_.analyse(matrix_at(problem.lattice.rest, TransverseTerm::exact, 0, 0));
+    factorisation_.analyse(matrix_at(problem.lattice.rest, Clamp::no, 0, 0));
   }
 
   bool direction(const Vector& at, const Vector& residual, double /*load_factor*/, double /*forcing*/,
                  mechanics::Convexity convexity, Vector& step) override {
     if (tangent_.n_free() == 0) return false; // every point goes where its support goes
-    const auto term =
-        convexity == mechanics::Convexity::clamped ? TransverseTerm::clamped : TransverseTerm::exact;
+    const Clamp clamp = convexity == mechanics::Convexity::clamped ? Clamp::yes : Clamp::no;
     const OneThread one;
     ++work_.factorisations;
-    if (!factorisation_.factorise(matrix_at(positions(problem_, at), term, terms().mass, terms().damping), 0))
+    if (!factorisation_.factorise(matrix_at(positions(problem_, at), clamp, terms().mass, terms().damping),
+                                  0))
       return false;
     step.setZero(at.size());
     const auto invert = [&](const Vector& right_side, Vector& solution) {
@@ -299,8 +298,8 @@ class MovingLattice : public MovingSprings {
   }
 
   /// Tangent + mass M + damping C, lower triangle, of one pattern whatever the factors are.
-  Matrix matrix_at(const Points& positions, TransverseTerm term, double mass, double damping) {
-    return Matrix(tangent_.assemble(positions, term) + mass * free_mass_ + damping * free_damping_);
+  Matrix matrix_at(const Points& positions, Clamp clamp, double mass, double damping) {
+    return Matrix(tangent_.assemble(positions, clamp) + mass * free_mass_ + damping * free_damping_);
   }
 };
 

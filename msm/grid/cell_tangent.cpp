@@ -41,7 +41,7 @@ CellMatrix CellTangent::at(const CellSprings& cell, const CellPositions& displac
       if (!(d.squaredNorm() > 1e-12 * rest * rest)) continue;
       const int n_axes = (axes & 1) + (axes >> 1 & 1) + (axes >> 2);
       const Eigen::Matrix3d block =
-          spring_stiffness(d, {stiffness, rest, law_of(body_.exponents, n_axes)}, TransverseTerm::clamped);
+          spring_stiffness(d, {stiffness, rest, law_of(body_.exponents, n_axes)}, Clamp::yes);
       add(v, v, block);
       add(w, w, block);
       add(v, w, -block);

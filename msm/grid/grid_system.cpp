@@ -208,12 +208,12 @@ class MatrixFreeSystem : public GridSystem {
   /// length in any one of n motions, and less than a thousandth of that in one case of a thousand.
   LinearSolution answer_to_probe(const Vector& displacement) {
     const double target = 1e-3 / std::sqrt(static_cast<double>(std::max<std::size_t>(1, n_unknowns())));
-    return solve_fresh(displacement, probe(), target, TransverseTerm::exact, 0);
+    return solve_fresh(displacement, probe(), target, Clamp::no, 0);
   }
 
-  bool solve(const Vector& displacement, const Vector& right_side, double forcing, TransverseTerm term,
-             double shift, Vector& step) override {
-    LinearSolution found = solve_fresh(displacement, right_side, forcing, term, shift);
+  bool solve(const Vector& displacement, const Vector& right_side, double forcing, Clamp clamp, double shift,
+             Vector& step) override {
+    LinearSolution found = solve_fresh(displacement, right_side, forcing, clamp, shift);
     step.swap(found.solution);
     return found.converged;
   }
@@ -221,8 +221,7 @@ class MatrixFreeSystem : public GridSystem {
   /// The cycle keeps what it learnt at the displacements before this one. After one where points coincide or
   /// fly off that may be wrong, and then a new cycle has to start afresh.
   LinearSolution solve_fresh(const Vector& displacement, const Vector& right_side, double forcing,
-                             TransverseTerm term, double shift) {
-    const Clamp clamp = term == TransverseTerm::clamped ? Clamp::yes : Clamp::no;
+                             Clamp clamp, double shift) {
     const auto apply = [&](const Vector& v, Vector& out) {
       springs_.product(clamp, displacement, v, out);
       if (shift != 0) add(out, shift, v, n_threads_);

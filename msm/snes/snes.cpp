@@ -232,7 +232,7 @@ class SnesProblem : public petsc::DistributedProblem<> {
       check(MatSetValuesBlocked(matrix, 1, &row, 1, &column, transposed.data(), ADD_VALUES));
       if (row != column) check(MatSetValuesBlocked(matrix, 1, &column, 1, &row, block.data(), ADD_VALUES));
     };
-    visit_tangent_blocks(lattice_, positions, TransverseTerm::exact, add);
+    visit_tangent_blocks(lattice_, positions, Clamp::no, add);
     check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
   }

@@ -9,8 +9,8 @@ using namespace springproof;
 
 namespace {
 
+using msm::Clamp;
 using msm::grid::Body;
-using msm::grid::Clamp;
 using msm::grid::Field;
 
 double n_nodes(const Body& body) {

@@ -7,9 +7,9 @@ using namespace springproof;
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using msm::Clamp;
 using msm::Spring;
 using msm::SpringLaw;
-using msm::TransverseTerm;
 
 namespace {
 
@@ -49,7 +49,7 @@ TEST_CASE("the force of a spring is the derivative of its energy") {
 TEST_CASE("the stiffness of a spring is the derivative of its force") {
   for (const Spring& of : springs)
     for (const Vector3d& d : {stretched, compressed}) {
-      const Matrix3d stiffness = msm::spring_stiffness(d, of, TransverseTerm::exact);
+      const Matrix3d stiffness = msm::spring_stiffness(d, of, Clamp::no);
       for (int a = 0; a < 3; ++a) {
         const Vector3d step = h * Vector3d::Unit(a);
         const Vector3d difference =
@@ -97,18 +97,19 @@ TEST_CASE("the clamped stiffness of a spring that has passed its largest tension
   const Spring of{2.5, 1.3, power_log(-2)}; // its largest tension is at ln q = 1/2
   const Vector3d far(0, 0, 3);
   CHECK(msm::spring_slopes(3, of).along < 0);
-  CHECK(Eigen::SelfAdjointEigenSolver<Matrix3d>(msm::spring_stiffness(far, of, TransverseTerm::clamped))
-            .eigenvalues()[0] >= 0);
+  CHECK(
+      Eigen::SelfAdjointEigenSolver<Matrix3d>(msm::spring_stiffness(far, of, Clamp::yes)).eigenvalues()[0] >=
+      0);
 }
 
 TEST_CASE(
     "clamping leaves a stretched spring as it is and takes a compressed one's transverse stiffness away") {
-  CHECK(msm::spring_stiffness(stretched, spring, TransverseTerm::clamped) ==
-        msm::spring_stiffness(stretched, spring, TransverseTerm::exact));
-  const Matrix3d clamped = msm::spring_stiffness(compressed, spring, TransverseTerm::clamped);
+  CHECK(msm::spring_stiffness(stretched, spring, Clamp::yes) ==
+        msm::spring_stiffness(stretched, spring, Clamp::no));
+  const Matrix3d clamped = msm::spring_stiffness(compressed, spring, Clamp::yes);
   const Vector3d along = compressed.normalized();
   CHECK((clamped - spring.stiffness * along * along.transpose()).norm() < 1e-14); // rounding
-  const Matrix3d exact = msm::spring_stiffness(compressed, spring, TransverseTerm::exact);
+  const Matrix3d exact = msm::spring_stiffness(compressed, spring, Clamp::no);
   const Eigen::SelfAdjointEigenSolver<Matrix3d> exact_modes(exact);
   CHECK(exact_modes.eigenvalues()[0] < 0); // which is why it must be clamped at all
 }

@@ -242,11 +242,11 @@ TEST_CASE_METHOD(WithMpi, "operators on parts of a grid give what they give on t
   const msm::grid::SpringField<double> all(whole, 1), some(here, 1);
   CHECK(some.energy(u_here) == Approx(all.energy(u)).epsilon(1e-12));
   Field<double> product = 0 * u, product_here = 0 * u_here;
-  all.product(msm::grid::Clamp::no, u, v, product);
-  some.product(msm::grid::Clamp::no, u_here, v_here, product_here);
+  all.product(msm::Clamp::no, u, v, product);
+  some.product(msm::Clamp::no, u_here, v_here, product_here);
   CHECK(difference_here(whole, product, here, product_here) < 1e-13); // N, of about 0.1
-  all.inverse_diagonal(msm::grid::Clamp::yes, u, product);
-  some.inverse_diagonal(msm::grid::Clamp::yes, u_here, product_here);
+  all.inverse_diagonal(msm::Clamp::yes, u, product);
+  some.inverse_diagonal(msm::Clamp::yes, u_here, product_here);
   CHECK(difference_here<double>(whole, product.head(3 * whole.layout.size), here,
                                 product_here.head(3 * here.layout.size)) < 1e-10); // mm/N, of about 10
 

@@ -24,7 +24,7 @@ double modulus(const msm::CellStiffness& stiffness, double edge, const Eigen::Ma
     return e * lattice.rest[static_cast<std::size_t>(p)];
   };
   double energy = 0;
-  msm::visit_tangent_blocks(lattice, lattice.rest, msm::TransverseTerm::exact,
+  msm::visit_tangent_blocks(lattice, lattice.rest, msm::Clamp::no,
                             [&](int row, int column, const Eigen::Matrix3d& block) {
                               energy += u(a, row).dot(block * u(b, column));
                               if (row != column) energy += u(b, row).dot(block * u(a, column));

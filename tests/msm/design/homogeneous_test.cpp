@@ -136,7 +136,7 @@ TEST_CASE("waves have the stiffness that the tangent of a block of the lattice g
     msm::Points positions = block.rest;
     for (Eigen::Vector3d& x : positions) x = f * x;
     Eigen::MatrixXd tangent = Eigen::MatrixXd::Zero(81, 81);
-    msm::visit_tangent_blocks(block, positions, msm::TransverseTerm::exact,
+    msm::visit_tangent_blocks(block, positions, msm::Clamp::no,
                               [&](int i, int j, const Eigen::Matrix3d& part) {
                                 tangent.block<3, 3>(3 * i, 3 * j) += part;
                                 if (i != j) tangent.block<3, 3>(3 * j, 3 * i) += part.transpose();

@@ -177,7 +177,7 @@ double softest(const msm::grid::Body& body, const msm::grid::Field<double>& disp
   Eigen::MatrixXd tangent(free.size(), free.size());
   for (std::size_t column = 0; column < free.size(); ++column) {
     direction[free[column]] = 1;
-    springs.product(msm::grid::Clamp::no, displacement, direction, image);
+    springs.product(msm::Clamp::no, displacement, direction, image);
     direction[free[column]] = 0;
     for (std::size_t row = 0; row < free.size(); ++row)
       tangent(Eigen::Index(row), Eigen::Index(column)) = image[free[row]];

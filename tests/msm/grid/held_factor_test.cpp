@@ -43,7 +43,7 @@ TEST_CASE("a held factor undoes the operator that it was made of") {
   const auto operate = [&](double sign) {
     return [&, sign](const Field<double>& v, Field<double>& product) {
       if (product.size() != v.size()) product.setZero(v.size());
-      springs.product(msm::grid::Clamp::yes, at, v, product);
+      springs.product(msm::Clamp::yes, at, v, product);
       product = sign * (product + mass.cwiseProduct(v));
     };
   };

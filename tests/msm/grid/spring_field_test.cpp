@@ -10,11 +10,10 @@
 using namespace springproof;
 
 using msm::CellStiffness;
+using msm::Clamp;
 using msm::Points;
 using msm::Problem;
-using msm::TransverseTerm;
 using msm::Vector;
-using msm::grid::Clamp;
 using msm::grid::Field;
 
 namespace {
@@ -94,10 +93,7 @@ TEST_CASE("the tangent of a grid, exact and clamped, is that of its lattice") {
   for (const Both& both : bodies_of_all_kinds())
     for (Clamp clamp : {Clamp::no, Clamp::yes}) {
       msm::Tangent tangent(both.problem.lattice, both.problem.is_constrained);
-      const Vector reference = tangent
-                                   .assemble(both.positions(), clamp == Clamp::yes ? TransverseTerm::clamped
-                                                                                   : TransverseTerm::exact)
-                                   .selfadjointView<Eigen::Lower>() *
+      const Vector reference = tangent.assemble(both.positions(), clamp).selfadjointView<Eigen::Lower>() *
                                msm::to_vector(both.problem, both.direction);
       const auto check = [&](auto real, double tolerance) {
         using Real = decltype(real);
@@ -115,7 +111,7 @@ TEST_CASE("the tangent of a grid, exact and clamped, is that of its lattice") {
 TEST_CASE("the inverse diagonal of a grid inverts the tangent's diagonal blocks") {
   for (const Both& both : bodies_of_all_kinds()) {
     msm::Tangent tangent(both.problem.lattice, std::vector<bool>(both.problem.is_constrained.size(), false));
-    const msm::Tangent::Matrix& matrix = tangent.assemble(both.positions(), TransverseTerm::clamped);
+    const msm::Tangent::Matrix& matrix = tangent.assemble(both.positions(), Clamp::yes);
     Field<double> inverse;
     msm::grid::SpringField<double>(both.grid.body, 1)
         .inverse_diagonal(Clamp::yes, both.field<double>(both.displacement), inverse);

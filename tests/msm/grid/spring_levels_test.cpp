@@ -155,7 +155,7 @@ TEST_CASE("one multigrid cycle removes most of an error, of bodies with gaps tha
   const msm::grid::SpringField<double> springs(body, 1);
   const auto product = [&, &mass = mass](const Field<double>& of) {
     Field<double> force = rest;
-    springs.product(msm::grid::Clamp::yes, rest, of, force);
+    springs.product(msm::Clamp::yes, rest, of, force);
     return Field<double>(force + mass * of);
   };
   Field<double> found = rest;
