@@ -69,8 +69,8 @@ ElementsInState elements_of(const cases::Scene& scene, const std::vector<Formula
   }
   const auto for_each = [&equations, &refined_cells, &state, refine](const auto& action) {
     equations.for_each_cell(state, [&](int cell, const CellGeometry& geometry, const double* displacement,
-                                       const double* pressure) {
-      action({place_of(index(refined_cells[index(cell)]), refine), geometry, displacement, pressure});
+                                       const double* internal) {
+      action({place_of(index(refined_cells[index(cell)]), refine), geometry, displacement, internal});
     });
   };
   return {scene, formulations, discretisation.element, discretisation.nodes.in_unit_cube(), cells, for_each};

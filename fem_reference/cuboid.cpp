@@ -27,7 +27,8 @@ std::vector<GaussPoint> gauss_points(int degree) {
 
 } // namespace
 
-Cuboid::Cuboid(int degree, int n_pressure_modes, const Eigen::Vector3d& edges) {
+Cuboid::Cuboid(int degree, int n_pressure_modes, const Eigen::Vector3d& edges, int n_bubbles)
+    : n_bubbles_(n_bubbles) {
   assert(n_pressure_modes <= 1);
   const int n = degree + 1, n_nodes = n * n * n;
   const std::vector<GaussPoint> points = gauss_points(degree);
@@ -52,16 +53,19 @@ Cuboid::Cuboid(int degree, int n_pressure_modes, const Eigen::Vector3d& edges) {
       return factor;
     };
     for (int a = 0; a < n_nodes; ++a) values_.push_back(product(a, 1, 3));
-    for (std::size_t j = 0; j < 3; ++j)
-      for (int a = 0; a < n_nodes; ++a)
-        gradients_.push_back(product(a, 1 / edges[static_cast<Eigen::Index>(j)], j));
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double edge = edges[static_cast<Eigen::Index>(j)];
+      for (int a = 0; a < n_nodes; ++a) gradients_.push_back(product(a, 1 / edge, j));
+      for (std::size_t b = 0; b < static_cast<std::size_t>(n_bubbles); ++b) // slope of 4 x (1 - x)
+        gradients_.push_back(b == j ? (4 - 8 * points[static_cast<std::size_t>(places(q)[j])].at) / edge : 0);
+    }
     if (n_pressure_modes == 1) modes_.push_back(1);
   }
 }
 
 CellGeometry Cuboid::geometry() const {
   const int n = static_cast<int>(nodes_.size());
-  return {n, n, gradients_.data(), weights_.data(), modes_.data()};
+  return {n, n + n_bubbles_, n, gradients_.data(), weights_.data(), modes_.data()};
 }
 
 } // namespace springproof::fem_reference

@@ -15,8 +15,8 @@ IntervalShapes interval_shapes(int degree, double x);
 /// likewise.
 class Cuboid {
  public:
-  /// @param n_pressure_modes  0 or 1     @param edges  mm
-  Cuboid(int degree, int n_pressure_modes, const Eigen::Vector3d& edges);
+  /// @param n_pressure_modes  0 or 1     @param edges  mm     @param n_bubbles  0 or 3
+  Cuboid(int degree, int n_pressure_modes, const Eigen::Vector3d& edges, int n_bubbles = 0);
 
   /// Points into this.
   CellGeometry geometry() const;
@@ -24,6 +24,7 @@ class Cuboid {
   const std::vector<double>& values() const { return values_; }        ///< N_a at point q: [q*n_nodes + a]
 
  private:
+  int n_bubbles_;
   std::vector<Eigen::Vector3d> nodes_;
   std::vector<double> values_, gradients_, weights_, modes_;
 };

@@ -1,6 +1,7 @@
 #include "fem_reference/element.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -15,7 +16,8 @@ namespace springproof::fem_reference {
 
 namespace {
 
-constexpr std::array<ElementType, 5> table{{{cases::Element::q1, 1, Pressure::pointwise, 0},
+constexpr std::array<ElementType, 6> table{{{cases::Element::q1, 1, Pressure::pointwise, 0},
+                                            {cases::Element::q1_wilson, 1, Pressure::pointwise, 0, 3},
                                             {cases::Element::q1_bbar, 1, Pressure::modes, 1},
                                             {cases::Element::q1_p0, 1, Pressure::modes, 1},
                                             {cases::Element::q2, 2, Pressure::pointwise, 0},
@@ -30,50 +32,64 @@ ElementType element_type(const cases::Fem& fem, const LawTraits& law) {
   if (law.split == Split::none && row->pressure != Pressure::pointwise)
     throw cases::InputError(
         fem.where, "this formulation's stress has no separate pressure, which q1_bbar, q1_p0 and q2_p1 "
-                   "need; allowed here: q1, q2");
+                   "need; allowed here: q1, q1_wilson, q2");
   return *row;
 }
 
 CellKernel::CellKernel(const ElementType& element) : element_(element) {
   const int n_nodes = (element.degree + 1) * (element.degree + 1) * (element.degree + 1);
-  const int n_dofs = 3 * n_nodes, n_modes = element.n_pressure_modes;
+  const int n_dofs = 3 * n_nodes, n_functions = n_nodes + element.n_bubbles;
+  const int n_modes = element.n_pressure_modes, n_internal = element.n_internal();
   const auto n_points = static_cast<std::size_t>(n_nodes);
   dilatation_.resize(n_points);
   cofactor_.resize(n_points);
   target_.resize(n_points);
   result_.force.resize(n_dofs);
   result_.tangent.resize(n_dofs, n_dofs);
-  result_.pressure_residual.resize(n_modes);
-  result_.pressure_slope.resize(n_modes, n_dofs);
+  result_.internal_residual.resize(n_internal);
+  result_.internal_slope.resize(n_internal, n_dofs);
+  force_.resize(3 * n_functions);
+  stiffness_.resize(3 * n_functions, 3 * n_functions);
+  displacement_.resize(3 * static_cast<std::size_t>(n_functions));
   volume_gradient_.resize(n_modes, n_dofs);
-  right_factor_.resize(27 * n_points * n_points);
+  right_factor_.resize(27 * n_points * static_cast<std::size_t>(n_functions));
 }
 
-Matrix3 CellKernel::displacement_gradient(const CellGeometry& g, int q, const double* displacement) {
+Matrix3 CellKernel::displacement_gradient(const CellGeometry& g, int q, const double* displacement,
+                                          int n_functions) {
   Matrix3 h = Matrix3::Zero();
-  const double* gradient = g.gradients + 3 * q * g.n_nodes;
+  const double* gradient = g.gradients + 3 * q * g.n_functions;
   for (int j = 0; j < 3; ++j)
-    for (int a = 0; a < g.n_nodes; ++a)
-      for (int i = 0; i < 3; ++i) h(i, j) += displacement[3 * a + i] * gradient[j * g.n_nodes + a];
+    for (int a = 0; a < n_functions; ++a)
+      for (int i = 0; i < 3; ++i) h(i, j) += displacement[3 * a + i] * gradient[j * g.n_functions + a];
   return h;
+}
+
+const double* CellKernel::with_bubbles(const CellGeometry& g, const double* displacement,
+                                       const double* internal) {
+  if (element_.n_bubbles == 0) return displacement;
+  std::copy_n(displacement, 3 * g.n_nodes, displacement_.begin());
+  std::copy_n(internal, 3 * element_.n_bubbles, displacement_.begin() + 3 * g.n_nodes);
+  return displacement_.data();
 }
 
 double CellKernel::deformed_volume(const CellGeometry& g, const double* displacement) {
   double rest = 0, growth = 0;
   for (int q = 0; q < g.n_points; ++q) {
     rest += g.weights[q];
-    growth += g.weights[q] * dilatation(Kinematics::finite, displacement_gradient(g, q, displacement));
+    growth +=
+        g.weights[q] * dilatation(Kinematics::finite, displacement_gradient(g, q, displacement, g.n_nodes));
   }
   return rest + growth;
 }
 
 void CellKernel::add_point(const CellGeometry& g, int q, Wanted wanted) {
-  const int n = g.n_nodes, n_dofs = 3 * n;
+  const int n = g.n_functions, n_dofs = 3 * n;
   const double* gradient = g.gradients + 3 * q * n;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       const double weighted = g.weights[q] * stress_.stress(3 * i + j);
-      for (int a = 0; a < n; ++a) result_.force[i * n + a] += weighted * gradient[j * n + a];
+      for (int a = 0; a < n; ++a) force_[i * n + a] += weighted * gradient[j * n + a];
     }
   if (wanted == Wanted::stress) return;
   for (int row = 0; row < 9; ++row) {
@@ -91,11 +107,11 @@ void CellKernel::add_point(const CellGeometry& g, int q, Wanted wanted) {
 
 /// K_(i,a)(k,b) = sum over points and J of dN_a/dX_J (w A grad N)_iJ,(k,b): one matrix product per i.
 void CellKernel::add_stiffness(const CellGeometry& g) {
-  const int columns = 3 * g.n_nodes, rows = g.n_nodes, inner = 3 * g.n_points;
+  const int columns = 3 * g.n_functions, rows = g.n_functions, inner = 3 * g.n_points;
   const double one = 1, zero = 0;
   for (int i = 0; i < 3; ++i) // BLAS counts columns first: it sees the transposes
     dgemm_("N", "T", &columns, &rows, &inner, &one, right_factor_.data() + i * inner * columns, &columns,
-           g.gradients, &rows, &zero, result_.tangent.data() + i * rows * columns, &columns);
+           g.gradients, &rows, &zero, stiffness_.data() + i * rows * columns, &columns);
 }
 
 /// B_m = sum w phi_m cof F . grad N: the gradient of the moments of the cell's volume.
@@ -128,20 +144,46 @@ void CellKernel::condense(const CellGeometry& g, Wanted wanted) {
   if (wanted == Wanted::stress) return;
   volume_gradients(g);
   const Eigen::LLT<Eigen::MatrixXd> factor(compliance);
-  result_.pressure_slope = factor.solve(volume_gradient_);
-  result_.pressure_residual = factor.solve(residual);
-  result_.force.noalias() += volume_gradient_.transpose() * result_.pressure_residual;
-  result_.tangent.noalias() += volume_gradient_.transpose() * result_.pressure_slope;
+  result_.internal_slope = factor.solve(volume_gradient_);
+  result_.internal_residual = factor.solve(residual);
+  result_.force.noalias() += volume_gradient_.transpose() * result_.internal_residual;
+  result_.tangent.noalias() += volume_gradient_.transpose() * result_.internal_slope;
+}
+
+void CellKernel::condense_bubbles(const CellGeometry& g, Wanted wanted) {
+  const int n = g.n_nodes, n_functions = g.n_functions, n_bubbles = element_.n_bubbles;
+  std::vector<int> nodes, bubbles; // degrees of freedom among all functions'; bubbles as in the state
+  for (int i = 0; i < 3; ++i)
+    for (int a = 0; a < n; ++a) nodes.push_back(i * n_functions + a);
+  for (int b = 0; b < n_bubbles; ++b)
+    for (int i = 0; i < 3; ++i) bubbles.push_back(i * n_functions + n + b);
+  const Eigen::VectorXd on_bubbles = force_(bubbles);
+  result_.force = force_(nodes);
+  result_.plain_force = result_.force;
+  result_.bubble_imbalance = on_bubbles.squaredNorm();
+  if (wanted == Wanted::stress) return;
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(stiffness_(bubbles, bubbles));
+  const Eigen::MatrixXd coupling = stiffness_(nodes, bubbles);
+  result_.internal_residual = -factor.solve(on_bubbles);
+  result_.internal_slope = -factor.solve(Eigen::MatrixXd(stiffness_(bubbles, nodes)));
+  result_.force += coupling * result_.internal_residual;
+  result_.tangent = stiffness_(nodes, nodes) + coupling * result_.internal_slope;
 }
 
 const CellResult& CellKernel::evaluate(const CellGeometry& g, const double* displacement,
-                                       const double* pressure, Wanted wanted) {
-  result_.force.setZero();
-  result_.valid = add_points(g, displacement, pressure, wanted);
+                                       const double* internal, Wanted wanted) {
+  force_.setZero();
+  result_.valid = add_points(g, with_bubbles(g, displacement, internal), internal, wanted);
   if (!result_.valid) return result_;
-  result_.volume_mismatch = 0;
-  result_.plain_force = result_.force;
+  result_.volume_mismatch = result_.bubble_imbalance = 0;
   if (wanted == Wanted::stress_and_tangent) add_stiffness(g);
+  if (element_.n_bubbles > 0) {
+    condense_bubbles(g, wanted);
+    return result_;
+  }
+  result_.plain_force = force_;
+  result_.force.swap(force_);
+  if (wanted == Wanted::stress_and_tangent) result_.tangent.swap(stiffness_);
   if (element_.pressure == Pressure::modes) condense(g, wanted);
   return result_;
 }

@@ -24,6 +24,13 @@ struct ElementType {
   int degree; ///< the displacement's, per direction
   Pressure pressure;
   int n_pressure_modes; ///< 1: constant; 4: linear in the rest coordinates, discontinuous
+  /// Displacements of its own that a cell adds, each with three components: 3 are Wilson's 1 - xi_a², a = 1,
+  /// 2, 3, whose gradients are constant-free (Taylor, Beresford and Wilson, Int. J. Numer. Meth. Engng. 10,
+  /// 1976), on any hexahedron.
+  int n_bubbles = 0;
+
+  /// Unknowns of a cell that are condensed in the linear solve: pressures, or components of bubbles.
+  int n_internal() const { return n_pressure_modes + 3 * n_bubbles; }
 };
 
 /// @throws InputError when the law has no pressure of its own and the element needs one
@@ -32,22 +39,25 @@ ElementType element_type(const cases::Fem& fem, const LawTraits& law);
 /// Rest geometry of one cell. Degree of freedom i*n_nodes + a is component i of node a.
 struct CellGeometry {
   int n_nodes;
+  int n_functions; ///< nodes, and bubbles after them
   int n_points;
-  const double* gradients; ///< dN_a/dX_J at point q: [(3*q + J)*n_nodes + a], 1/mm
+  const double* gradients; ///< dN_a/dX_J at point q: [(3*q + J)*n_functions + a], 1/mm
   const double* weights;   ///< quadrature weight times Jacobian, mm³
   const double* modes;     ///< pressure shape functions: [q*n_pressure_modes + m]
 };
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// What a cell contributes, and what the condensed pressure needs afterwards.
+/// What a cell contributes, and what its condensed unknowns need afterwards: pressures (MPa) or the
+/// components of bubbles (mm, 3*bubble + i).
 struct CellResult {
-  bool valid;             ///< false: J <= 0 or not a number at a quadrature point; nothing else is set
-  double volume_mismatch; ///< largest |integral of mode (J - J(p))| / rest volume
-  Eigen::VectorXd force;  ///< internal, N; has the condensed pressure imbalance when a tangent is wanted
-  RowMajorMatrix tangent; ///< N/mm
-  Eigen::VectorXd pressure_residual; ///< C^-1 R_p, MPa: pressure change at fixed displacement
-  RowMajorMatrix pressure_slope;     ///< C^-1 B, MPa/mm, (mode, dof)
+  bool valid;              ///< false: J <= 0 or not a number at a quadrature point; nothing else is set
+  double volume_mismatch;  ///< largest |integral of mode (J - J(p))| / rest volume
+  double bubble_imbalance; ///< squared, N²
+  Eigen::VectorXd force;   ///< internal, N; has the condensed imbalance when a tangent is wanted
+  RowMajorMatrix tangent;  ///< N/mm
+  Eigen::VectorXd internal_residual; ///< change of the internal unknowns at fixed displacement
+  RowMajorMatrix internal_slope;     ///< their change by displacement, (unknown, dof)
   Eigen::VectorXd plain_force;       ///< internal force without the condensed imbalance
 };
 
@@ -56,27 +66,36 @@ struct CellResult {
 /// Internal force f = sum w (P + p cof F) . grad N. With pressure modes phi_m the cell also balances
 /// R_m = sum w phi_m (J - J(p)), whose linearisation  R + B du - C dp = 0, C_mn = sum w phi_m phi_n J'(p), is
 /// solved for dp, which leaves K + B^T C^-1 B and f + B^T C^-1 R for the displacement.
+///
+/// Bubbles b are displacements that the cell alone has: their forces f_b vanish. Newton's method solves
+/// f_b + K_bu du + K_bb db = 0 for db, which leaves K - K_ub K_bb^-1 K_bu and f - K_ub K_bb^-1 f_b.
 class CellKernel {
  public:
   explicit CellKernel(const ElementType& element);
   virtual ~CellKernel() = default;
 
-  /// @param displacement  mm, [3*a + i]     @param pressure  MPa, one per mode; ignored without modes
+  /// @param displacement  mm, [3*a + i]
+  /// @param internal      the element's n_internal() unknowns; ignored without any
   /// @return valid until the next call
-  const CellResult& evaluate(const CellGeometry& geometry, const double* displacement, const double* pressure,
+  const CellResult& evaluate(const CellGeometry& geometry, const double* displacement, const double* internal,
                              Wanted wanted);
   /// Strain energy of the cell in a state that evaluate() finds valid, N mm. With pressure modes the volume
   /// ratios follow from the pressures.
-  virtual double energy(const CellGeometry& geometry, const double* displacement,
-                        const double* pressure) const = 0;
+  double energy(const CellGeometry& geometry, const double* displacement, const double* internal) {
+    return energy_of(geometry, with_bubbles(geometry, displacement, internal), internal);
+  }
   /// Volume of the cell with its nodes displaced, mm³, whatever the kinematics of its law.
   static double deformed_volume(const CellGeometry& geometry, const double* displacement);
 
  protected:
+  virtual double energy_of(const CellGeometry& geometry, const double* displacement,
+                           const double* pressure) const = 0;
   /// Calls add_point() for every point.  @return false at one that is inverted or not a number
   virtual bool add_points(const CellGeometry& geometry, const double* displacement, const double* pressure,
                           Wanted wanted) = 0;
-  static Matrix3 displacement_gradient(const CellGeometry& geometry, int point, const double* displacement);
+  /// @param displacement  of the first n_functions functions, mm
+  static Matrix3 displacement_gradient(const CellGeometry& geometry, int point, const double* displacement,
+                                       int n_functions);
   /// Adds the point's stress_ to the force, and when wanted sets its w A grad N for the tangent.
   void add_point(const CellGeometry& geometry, int point, Wanted wanted);
 
@@ -90,8 +109,15 @@ class CellKernel {
   void volume_gradients(const CellGeometry& geometry);
   void add_stiffness(const CellGeometry& geometry);
   void condense(const CellGeometry& geometry, Wanted wanted);
+  void condense_bubbles(const CellGeometry& geometry, Wanted wanted);
+  /// Displacement of all functions, mm: the nodes', or these and the bubbles' in a buffer.
+  const double* with_bubbles(const CellGeometry& geometry, const double* displacement,
+                             const double* internal);
 
   CellResult result_;
+  Eigen::VectorXd force_;            ///< on all functions
+  RowMajorMatrix stiffness_;         ///< between all functions
+  std::vector<double> displacement_; ///< of all functions
   RowMajorMatrix volume_gradient_;   ///< (mode, dof): B
   std::vector<double> right_factor_; ///< w A grad N: [((i*n_points + q)*3 + J)*n_dofs + dof]
 };

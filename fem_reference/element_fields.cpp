@@ -30,7 +30,7 @@ namespace {
 /// @param nodes  an element's, in its unit cube     @param force  CellResult::plain_force, N
 void add(mechanics::FieldSums& sums, const cases::Scene& scene, const std::vector<Vector3d>& nodes,
          const ElementState& element, bool is_linear, const Eigen::VectorXd& force, double energy) {
-  const auto& [place, geometry, displacement, pressure] = element;
+  const auto& [place, geometry, displacement, internal] = element;
   const std::array<int, 8> vertices = scene.mesh.cells[place.cell];
   const std::array<Vector3d, 8> corners = cases::cell_vertices(scene.mesh, place.cell);
   const Vector3d first(displacement);
@@ -51,7 +51,7 @@ void add(mechanics::FieldSums& sums, const cases::Scene& scene, const std::vecto
     rest_volume += geometry.weights[q];
     for (int j = 0; j < 3; ++j)
       for (int a = 0; a < geometry.n_nodes; ++a) {
-        const double gradient = geometry.gradients[(3 * q + j) * geometry.n_nodes + a];
+        const double gradient = geometry.gradients[(3 * q + j) * geometry.n_functions + a];
         sum.gradient().col(j) += geometry.weights[q] * gradient * Vector3d(displacement + 3 * a);
       }
   }
@@ -82,9 +82,9 @@ cases::Fields fields_of(const ElementsInState& elements, const cases::Sharing* s
   elements.for_each([&](const ElementState& element) {
     CellKernel& kernel = *kernels[index(cases::material_of(scene, element.place.cell))];
     const CellResult& result =
-        kernel.evaluate(element.geometry, element.displacement, element.pressure, Wanted::stress);
+        kernel.evaluate(element.geometry, element.displacement, element.internal, Wanted::stress);
     add(sums, scene, elements.nodes, element, is_linear, result.plain_force,
-        kernel.energy(element.geometry, element.displacement, element.pressure));
+        kernel.energy(element.geometry, element.displacement, element.internal));
   });
   return mechanics::fields_of(
       scene, std::move(sums), sharing,

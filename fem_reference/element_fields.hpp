@@ -21,7 +21,7 @@ struct ElementState {
   ElementPlace place;
   CellGeometry geometry;
   const double* displacement; ///< mm
-  const double* pressure;     ///< MPa
+  const double* internal;     ///< its unknowns beside these
 };
 
 /// The elements of a body in a state, as its fields and norms are made of them.

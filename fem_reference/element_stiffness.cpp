@@ -42,8 +42,9 @@ ElementStiffness element_stiffness(const std::array<Eigen::Vector3d, 8>& vertice
   LawKernel<SmallStrain> kernel(element_type(fem, SmallStrain::traits), SmallStrain(material));
   const std::array<double, 24> rest{};
   const std::array<double, 8> constant_mode{{1, 1, 1, 1, 1, 1, 1, 1}};
-  const CellResult& result = kernel.evaluate({8, 8, gradients.data(), weights.data(), constant_mode.data()},
-                                             rest.data(), rest.data(), Wanted::stress_and_tangent);
+  const CellResult& result =
+      kernel.evaluate({8, 8, 8, gradients.data(), weights.data(), constant_mode.data()}, rest.data(),
+                      rest.data(), Wanted::stress_and_tangent);
   ElementStiffness stiffness;
   for (int row = 0; row < 24; ++row) // the kernel numbers degrees of freedom i*8 + a
     for (int column = 0; column < 24; ++column)

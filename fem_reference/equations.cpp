@@ -13,9 +13,9 @@ Assembly::Assembly(const Discretisation& discretisation, const std::vector<Formu
     : discretisation_(discretisation), kernels_(kernels_of(formulations, discretisation.element)),
       tangent_(discretisation.make_tangent_matrix()) {
   const std::size_t n_dofs = 3 * index(discretisation.nodes.per_cell);
-  pressure_residual_.resize(index(discretisation.nodes.n_cells) *
-                            index(discretisation.element.n_pressure_modes));
-  pressure_slope_.resize(n_pressures() * n_dofs);
+  internal_residual_.resize(index(discretisation.nodes.n_cells) *
+                            index(discretisation.element.n_internal()));
+  internal_slope_.resize(n_internal() * n_dofs);
   cell_displacement_.resize(n_dofs);
   rows_.resize(n_dofs);
 }
@@ -30,8 +30,8 @@ CellKernel& Assembly::kernel(int cell) const {
   return *kernels_[material.empty() ? 0 : index(material[index(cell)])];
 }
 
-const double* Assembly::pressure(int cell, const State& state) const {
-  return state.data() + n_displacements() + cell * discretisation_.element.n_pressure_modes;
+const double* Assembly::internal(int cell, const State& state) const {
+  return state.data() + n_displacements() + cell * discretisation_.element.n_internal();
 }
 
 const double* Assembly::displacement(int cell, const State& state) {
@@ -60,64 +60,65 @@ void Assembly::add_tangent(int cell, const CellResult& result, const std::vector
   const auto size = static_cast<PetscInt>(n_dofs);
   check(MatSetValuesLocal(tangent(), size, rows_.data(), size, rows_.data(), result.tangent.data(),
                           ADD_VALUES));
-  const auto first = cell * discretisation_.element.n_pressure_modes;
-  std::copy(result.pressure_residual.begin(), result.pressure_residual.end(),
-            pressure_residual_.begin() + first);
-  std::copy_n(result.pressure_slope.data(), result.pressure_slope.size(),
-              pressure_slope_.begin() + first * size);
+  const auto first = cell * discretisation_.element.n_internal();
+  std::copy(result.internal_residual.begin(), result.internal_residual.end(),
+            internal_residual_.begin() + first);
+  std::copy_n(result.internal_slope.data(), result.internal_slope.size(),
+              internal_slope_.begin() + first * size);
 }
 
-std::optional<double> Assembly::assemble(const State& state, const std::vector<double>& gap, Wanted wanted,
-                                         Vec force, Vec condensed) {
+std::optional<InternalImbalance> Assembly::assemble(const State& state, const std::vector<double>& gap,
+                                                    Wanted wanted, Vec force, Vec condensed) {
   const auto& d = discretisation_;
   const bool wants_tangent = wanted == Wanted::stress_and_tangent;
-  std::optional<double> volume_mismatch = 0;
+  std::optional<InternalImbalance> imbalance = InternalImbalance{};
   if (wants_tangent) {
     check(MatZeroEntries(tangent()));
     for (int i = 0; i < 3 * d.nodes.n_owned; ++i)
       if (d.constraints.is_constrained[index(i)]) check(MatSetValueLocal(tangent(), i, i, 1, ADD_VALUES));
   }
   {
-    const WriteEntries plain(force), with_pressures(condensed);
+    const WriteEntries plain(force), with_internals(condensed);
     std::fill_n(plain.data(), n_displacements(), 0.);
-    if (wants_tangent) std::fill_n(with_pressures.data(), n_displacements(), 0.);
+    if (wants_tangent) std::fill_n(with_internals.data(), n_displacements(), 0.);
     for (int cell = 0; cell < d.nodes.n_cells; ++cell) {
       const CellResult& result = kernel(cell).evaluate(d.geometry.of(cell), displacement(cell, state),
-                                                       pressure(cell, state), wanted);
+                                                       internal(cell, state), wanted);
       if (!result.valid) {
-        volume_mismatch.reset();
+        imbalance.reset();
         break;
       }
-      *volume_mismatch = std::max(*volume_mismatch, result.volume_mismatch);
+      imbalance->volume_mismatch = std::max(imbalance->volume_mismatch, result.volume_mismatch);
+      imbalance->of_bubbles += result.bubble_imbalance;
       for (std::size_t k = 0; k < rows_.size(); ++k) plain[dof(cell, k)] += result.plain_force[k];
-      if (wants_tangent) add_tangent(cell, result, gap, with_pressures);
+      if (wants_tangent) add_tangent(cell, result, gap, with_internals);
     }
   }
   mechanics::petsc::add_ghosts(force);
-  if (!wants_tangent) return volume_mismatch;
+  if (!wants_tangent) return imbalance;
   mechanics::petsc::add_ghosts(condensed);
   check(MatAssemblyBegin(tangent(), MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(tangent(), MAT_FINAL_ASSEMBLY));
-  return volume_mismatch;
+  return imbalance;
 }
 
 void Assembly::complete_correction(State& correction) const {
-  const std::size_t n_dofs = rows_.size(), n_modes = index(discretisation_.element.n_pressure_modes);
-  for (std::size_t m = 0; m < n_pressures(); ++m) {
-    double change = pressure_residual_[m];
+  const std::size_t n_dofs = rows_.size(), n_modes = index(discretisation_.element.n_internal());
+  for (std::size_t m = 0; m < n_internal(); ++m) {
+    double change = internal_residual_[m];
     for (std::size_t k = 0; k < n_dofs; ++k)
-      change += pressure_slope_[m * n_dofs + k] * correction.data()[dof(static_cast<int>(m / n_modes), k)];
+      change += internal_slope_[m * n_dofs + k] * correction.data()[dof(static_cast<int>(m / n_modes), k)];
     correction.data()[n_displacements() + m] = change;
   }
 }
 
-void Assembly::pressures_are_balanced() {
-  std::fill(pressure_residual_.begin(), pressure_residual_.end(), 0.);
+void Assembly::internals_are_balanced() {
+  std::fill(internal_residual_.begin(), internal_residual_.end(), 0.);
 }
 
 EquilibriumEquations::EquilibriumEquations(const Discretisation& discretisation,
                                            const std::vector<Formulation>& formulations)
-    : DistributedProblem(discretisation.communicator, discretisation.element.pressure == Pressure::modes,
+    : DistributedProblem(discretisation.communicator, discretisation.element.n_internal() > 0,
                          formulations.front().kinematics == Kinematics::linear),
       discretisation_(discretisation), assembly_(discretisation, formulations),
       solver_(discretisation, assembly_.tangent(), formulations.front().symmetry),
@@ -171,10 +172,10 @@ void EquilibriumEquations::evaluate(const State& state, double load_factor, Want
     if (step_) prescribed_gap_[i] = step_->supports[dof];
     prescribed_gap_[i] = d.constraints.is_constrained[i] ? prescribed_gap_[i] - state[dof] : 0;
   }
-  const auto mismatch =
+  const auto internal =
       assembly_.assemble(state, prescribed_gap_, wanted, force_.get(), right_hand_side_.get());
   if (step_) add_inertia(state, wanted);
-  measure(mismatch, load_factor);
+  measure(internal, load_factor);
   if (wanted == Wanted::stress) return;
   // minus the condensed imbalance, and the prescribed gap on constrained degrees of freedom
   const WriteEntries values(right_hand_side_.get());
@@ -249,9 +250,9 @@ void EquilibriumEquations::multiply(const LocalMatrix& matrix, const State& moti
 
 void EquilibriumEquations::complete(State& motion) {
   motion.head(static_cast<Eigen::Index>(n_dofs())) = with_ghosts(motion);
-  if (!is_linear_ || assembly_.n_pressures() == 0) return;
+  if (!is_linear_ || assembly_.n_internal() == 0) return;
   if (!has_tangent_) evaluate(rest(), 0, Wanted::stress_and_tangent);
-  assembly_.pressures_are_balanced();
+  assembly_.internals_are_balanced();
   assembly_.complete_correction(motion);
 }
 
@@ -307,7 +308,7 @@ void EquilibriumEquations::evaluate_for_direction(const State& state, double loa
     // The tangent is needed for the forces of supports that have to move; supports that a step in time has
     // moved leave pressures behind.
     if (largest_gap_ == 0 && (!step_ || size_.constraints_hold)) {
-      assembly_.pressures_are_balanced();
+      assembly_.internals_are_balanced();
       check(VecCopy(force_.get(), right_hand_side_.get()));
       check(VecScale(right_hand_side_.get(), -1));
       return;
@@ -318,9 +319,9 @@ void EquilibriumEquations::evaluate_for_direction(const State& state, double loa
 
 /// Subtracts the load from the internal force, which then is the imbalance, zero on constrained degrees of
 /// freedom.
-void EquilibriumEquations::measure(std::optional<double> volume_mismatch, double load_factor) {
+void EquilibriumEquations::measure(const std::optional<InternalImbalance>& internal, double load_factor) {
   const auto& d = discretisation_;
-  double imbalance = 0, reaction = 0;
+  double imbalance = internal ? internal->of_bubbles : 0, reaction = 0;
   largest_gap_ = 0;
   const WriteEntries force(force_.get());
   for (std::size_t i = 0; i < d.load.size(); ++i) {
@@ -337,9 +338,9 @@ void EquilibriumEquations::measure(std::optional<double> volume_mismatch, double
   largest_gap_ = total(largest_gap_, MPI_MAX, communicator_);
   reaction = std::sqrt(total(reaction, MPI_SUM, communicator_));
   size_.relative = imbalance == 0 ? 0 : imbalance / scale(d.constraints.are_moved, reaction);
-  size_.constraints_hold =
-      total(volume_mismatch.value_or(0), MPI_MAX, communicator_) <= volume_tolerance && largest_gap_ <= 1e-12;
-  if (total(volume_mismatch ? 1 : 0, MPI_MIN, communicator_) == 0 || !std::isfinite(imbalance))
+  const double mismatch = total(internal ? internal->volume_mismatch : 0, MPI_MAX, communicator_);
+  size_.constraints_hold = mismatch <= volume_tolerance && largest_gap_ <= 1e-12;
+  if (total(internal ? 1 : 0, MPI_MIN, communicator_) == 0 || !std::isfinite(imbalance))
     size_ = {std::numeric_limits<double>::quiet_NaN(), false};
 }
 

@@ -9,11 +9,17 @@
 
 namespace springproof::fem_reference {
 
-/// Displacement of every local degree of freedom (ghosts current, mm), then the pressures of this rank's
-/// cells (MPa, n_pressure_modes per cell).
+/// Displacement of every local degree of freedom (ghosts current, mm), then the internal unknowns of this
+/// rank's cells: pressures (MPa) or components of bubbles (mm), n_internal() per cell.
 using State = mechanics::Vector;
 
-/// The loop over cells: internal forces, the assembled tangent, and what the condensed pressures need.
+/// What a rank's cells lack in balance of their internal unknowns.
+struct InternalImbalance {
+  double volume_mismatch = 0; ///< the largest
+  double of_bubbles = 0;      ///< sum of squares, N²
+};
+
+/// The loop over cells: internal forces, the assembled tangent, and what the condensed unknowns need.
 class Assembly {
  public:
   /// @param formulations  one for each of the discretisation's materials
@@ -21,30 +27,30 @@ class Assembly {
 
   /// @param gap        mm to the prescribed displacements, per local degree of freedom; 0 where unconstrained
   /// @param force      becomes the internal force, N
-  /// @param condensed  when a tangent is wanted, becomes the internal force with the pressures' imbalance and
-  ///                   what the gap will add to it, N
-  /// @return the largest volume mismatch of this rank's cells; nothing when one of them is inverted at a
-  ///         quadrature point, or not a number: sums are then incomplete
-  std::optional<double> assemble(const State& state, const std::vector<double>& gap, Wanted wanted, Vec force,
-                                 Vec condensed);
+  /// @param condensed  when a tangent is wanted, becomes the internal force with the imbalance of internal
+  ///                   unknowns and what the gap will add to it, N
+  /// @return nothing when one of this rank's cells is inverted at a quadrature point, or not a number: sums
+  ///         are then incomplete
+  std::optional<InternalImbalance> assemble(const State& state, const std::vector<double>& gap, Wanted wanted,
+                                            Vec force, Vec condensed);
 
-  /// Sets the pressures that belong to a correction's displacement.
+  /// Sets the internal unknowns that belong to a correction's displacement.
   void complete_correction(State& correction) const;
-  /// Takes the pressures of the current state as balanced, for a linear body's next correction.
-  void pressures_are_balanced();
-  /// Calls action(cell, its geometry, displacement, pressure) for this rank's cells.
+  /// Takes the internal unknowns of the current state as balanced, for a linear body's next correction.
+  void internals_are_balanced();
+  /// Calls action(cell, its geometry, displacement, internal unknowns) for this rank's cells.
   template<class Action>
   void for_each_cell(const State& state, const Action& action) {
     for (int cell = 0; cell < discretisation_.nodes.n_cells; ++cell)
-      action(cell, discretisation_.geometry.of(cell), displacement(cell, state), pressure(cell, state));
+      action(cell, discretisation_.geometry.of(cell), displacement(cell, state), internal(cell, state));
   }
 
-  std::size_t n_pressures() const { return pressure_residual_.size(); }
+  std::size_t n_internal() const { return internal_residual_.size(); }
   Mat tangent() const { return tangent_.get(); }
 
  private:
   CellKernel& kernel(int cell) const;
-  const double* pressure(int cell, const State& state) const;
+  const double* internal(int cell, const State& state) const;
   /// Displacement of a cell's nodes, mm, kept until the next call.
   const double* displacement(int cell, const State& state);
   void add_tangent(int cell, const CellResult& result, const std::vector<double>& gap,
@@ -56,7 +62,7 @@ class Assembly {
   const Discretisation& discretisation_;
   std::vector<std::unique_ptr<CellKernel>> kernels_; ///< one for each material
   Matrix tangent_;
-  std::vector<double> pressure_residual_, pressure_slope_; ///< C^-1 R and C^-1 B of every cell
+  std::vector<double> internal_residual_, internal_slope_; ///< every cell's, as in CellResult
   std::vector<double> cell_displacement_;
   std::vector<PetscInt> rows_;
 };
@@ -72,7 +78,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   EquilibriumEquations(const Discretisation& discretisation, const std::vector<Formulation>& formulations);
 
   State rest() const override {
-    return State::Zero(static_cast<Eigen::Index>(n_dofs() + assembly_.n_pressures()));
+    return State::Zero(static_cast<Eigen::Index>(n_dofs() + assembly_.n_internal()));
   }
 
   void residual(const State& at, double load_factor, mechanics::Expect expect, State& residual) override;
@@ -121,7 +127,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   State with_ghosts(const State& motion);
   void set_inertia_force(const LocalMatrix& matrix, const State& motion);
   void add_to_tangent(const LocalMatrix& added);
-  void measure(std::optional<double> volume_mismatch, double load_factor);
+  void measure(const std::optional<InternalImbalance>& internal, double load_factor);
 
   const Discretisation& discretisation_;
   Assembly assembly_;

@@ -72,7 +72,7 @@ Vector Nodes::make_vector(MPI_Comm communicator) const {
 }
 
 Geometry::Geometry(const Space& space, const Nodes& nodes, const ElementType& element)
-    : nodes_(nodes), n_modes_(element.n_pressure_modes) {
+    : nodes_(nodes), n_modes_(element.n_pressure_modes), n_bubbles_(element.n_bubbles) {
   const dealii::QGauss<3> quadrature(static_cast<unsigned>(element.degree) + 1);
   dealii::FEValues<3> values(space.mapping, space.node_element, quadrature,
                              dealii::update_gradients | dealii::update_JxW_values);
@@ -80,14 +80,23 @@ Geometry::Geometry(const Space& space, const Nodes& nodes, const ElementType& el
   for (const auto& at : quadrature.get_points())
     for (unsigned a = 0; a < space.node_element.n_dofs_per_cell(); ++a)
       shape_values.push_back(space.node_element.shape_value(a, at));
-  gradients_.reserve(3 * index(nodes.n_cells) * shape_values.size());
+  dealii::FEValues<3> centre(space.mapping, space.node_element, dealii::QMidpoint<3>(),
+                             dealii::update_inverse_jacobians | dealii::update_JxW_values);
+  gradients_.reserve(3 * index(nodes.n_cells) * index(n_points) * index(nodes.per_cell + n_bubbles_));
   int n_cells = 0;
   for (const auto& cell : space.own_cells()) {
-    values.reinit(static_cast<const dealii::Triangulation<3>::active_cell_iterator&>(cell));
+    const auto& active = static_cast<const dealii::Triangulation<3>::active_cell_iterator&>(cell);
+    values.reinit(active);
+    if (n_bubbles_ > 0) centre.reinit(active);
     for (const unsigned q : values.quadrature_point_indices()) {
       weights_.push_back(values.JxW(q));
-      for (unsigned j = 0; j < 3; ++j)
+      for (unsigned j = 0; j < 3; ++j) {
         for (const unsigned a : values.dof_indices()) gradients_.push_back(values.shape_grad(a, q)[j]);
+        // Of 4 x_b (1 - x_b), by the map at the centre, so that it is 0 in the mean.
+        for (unsigned b = 0; b < static_cast<unsigned>(n_bubbles_); ++b)
+          gradients_.push_back((4 - 8 * quadrature.point(q)[b]) * centre.inverse_jacobian(0)[b][j] *
+                               centre.JxW(0) * quadrature.weight(q) / values.JxW(q));
+      }
     }
     add_pressure_modes(n_cells++);
   }
@@ -114,8 +123,13 @@ void Geometry::add_pressure_modes(int cell) {
 
 CellGeometry Geometry::of(int cell) const {
   const auto first = index(cell) * index(n_points);
-  return {nodes_.per_cell, n_points, gradients_.data() + first * 3 * index(nodes_.per_cell),
-          weights_.data() + first, modes_.data() + first * index(n_modes_)};
+  const int n_functions = nodes_.per_cell + n_bubbles_;
+  return {nodes_.per_cell,
+          n_functions,
+          n_points,
+          gradients_.data() + first * 3 * index(n_functions),
+          weights_.data() + first,
+          modes_.data() + first * index(n_modes_)};
 }
 
 Vector3d Geometry::point(int cell, int q) const {

@@ -55,7 +55,7 @@ class Geometry {
   void add_pressure_modes(int cell);
 
   const Nodes& nodes_;
-  int n_modes_;
+  int n_modes_, n_bubbles_;
   std::vector<double> gradients_, weights_, modes_;
 };
 

@@ -29,10 +29,10 @@ auto rest_stiffness_of_cells(const Discretisation& d, const std::vector<Formulat
   return
       [&d, kernels = kernels_of(formulations, d.element),
        displacement = std::vector<double>(3 * index(d.nodes.per_cell)),
-       pressure = std::vector<double>(index(d.element.n_pressure_modes))](int cell) -> const RowMajorMatrix& {
+       internal = std::vector<double>(index(d.element.n_internal()))](int cell) -> const RowMajorMatrix& {
         const auto& material = d.material_of_cell;
         return kernels[material.empty() ? 0 : index(material[index(cell)])]
-            ->evaluate(d.geometry.of(cell), displacement.data(), pressure.data(), Wanted::stress_and_tangent)
+            ->evaluate(d.geometry.of(cell), displacement.data(), internal.data(), Wanted::stress_and_tangent)
             .tangent;
       };
 }

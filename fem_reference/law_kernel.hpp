@@ -12,10 +12,13 @@ class LawKernel final : public CellKernel {
  public:
   LawKernel(const ElementType& element, Law law) : CellKernel(element), law_(std::move(law)) {}
 
-  double energy(const CellGeometry& g, const double* displacement, const double* pressure) const override {
+ private:
+  static constexpr Kinematics kinematics = Law::traits.kinematics;
+
+  double energy_of(const CellGeometry& g, const double* displacement, const double* pressure) const override {
     double sum = 0;
     for (int q = 0; q < g.n_points; ++q) {
-      const Matrix3 h = displacement_gradient(g, q, displacement);
+      const Matrix3 h = displacement_gradient(g, q, displacement, g.n_functions);
       double density = law_.energy(h);
       if constexpr (Law::traits.split == Split::pressure)
         density += law_.volume_energy(element_.pressure == Pressure::pointwise
@@ -26,14 +29,11 @@ class LawKernel final : public CellKernel {
     return sum;
   }
 
- private:
-  static constexpr Kinematics kinematics = Law::traits.kinematics;
-
   bool add_points(const CellGeometry& g, const double* displacement, const double* pressure,
                   Wanted wanted) override {
     for (int q = 0; q < g.n_points; ++q) {
       const auto point = static_cast<std::size_t>(q);
-      const Matrix3 h = displacement_gradient(g, q, displacement);
+      const Matrix3 h = displacement_gradient(g, q, displacement, g.n_functions);
       const double change = dilatation(kinematics, h);
       // linear kinematics have no inverted state; written so that NaN is refused
       const bool is_admissible = kinematics == Kinematics::linear ? std::isfinite(change) : change > -1;

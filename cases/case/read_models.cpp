@@ -17,14 +17,14 @@ std::vector<Element> elements_of(Formulation formulation) {
   using E = Element;
   switch (formulation) {
   case Formulation::saint_venant_kirchhoff:
-    return {E::q1, E::q2};
+    return {E::q1, E::q1_wilson, E::q2};
   case Formulation::hyperelastic:
-    return {E::q1_p0, E::q1_bbar, E::q1, E::q2, E::q2_p1};
+    return {E::q1_p0, E::q1_bbar, E::q1, E::q1_wilson, E::q2, E::q2_p1};
   case Formulation::small_strain:
   case Formulation::log_strain:
     break;
   }
-  return {E::q1_bbar, E::q1, E::q1_p0, E::q2, E::q2_p1};
+  return {E::q1_bbar, E::q1, E::q1_p0, E::q1_wilson, E::q2, E::q2_p1};
 }
 
 /// Lists the formulations for a material.  @param model  material.model of a case file
@@ -62,7 +62,8 @@ void read_formulation(Table& table, const Material& material, Fem& fem) {
 /// The elements required by the material, when this one is not among them; otherwise empty.
 std::string element_needed(Element element, const Material& material) {
   const Ogden* ogden = std::get_if<Ogden>(&material);
-  if (ogden && !ogden->bulk_modulus && (element == Element::q1 || element == Element::q2))
+  if (ogden && !ogden->bulk_modulus &&
+      (element == Element::q1 || element == Element::q1_wilson || element == Element::q2))
     return "\"q1_p0\" | \"q1_bbar\" | \"q2_p1\" with an ogden material that has no bulk_modulus: it is "
            "nearly incompressible, and a displacement element without averaged volume locks";
   return "";

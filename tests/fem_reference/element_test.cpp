@@ -3,12 +3,14 @@
 #include "fem_reference/discretisation.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "fem_reference/laws/formulation.hpp"
+#include "mechanics/elastic_moduli.hpp"
 #include "scenes.hpp"
 #include "tests/support/largest.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 
 using namespace springproof;
 
@@ -27,13 +29,13 @@ struct OneCell {
   Formulation formulation;
   Discretisation discretisation;
   std::unique_ptr<CellKernel> kernel;
-  Eigen::VectorXd pressure;
+  Eigen::VectorXd internal;
 
   OneCell(cases::Formulation name, Element element, const cases::Material& material)
       : scene(scenes::distorted_box(1, scenes::Surface::free, material, name, element)),
         formulation(make(scene)),
         discretisation(scene, element_type(scene.definition.fem, formulation), MPI_COMM_SELF),
-        kernel(formulation.make_kernel(discretisation.element)), pressure(Eigen::VectorXd::Zero(4)) {}
+        kernel(formulation.make_kernel(discretisation.element)), internal(Eigen::VectorXd::Zero(9)) {}
 
   static Formulation make(cases::Scene& scene) {
     for (std::size_t n = 0; n < 8; ++n) // a cell that is no parallelepiped
@@ -54,16 +56,16 @@ struct OneCell {
     }
     return u;
   }
-  /// Evaluates at the pressures that balance the cell's volume, by Newton's method at fixed displacement.
+  /// Evaluates at the pressures or bubbles in balance, by Newton's method at fixed displacement.
   const CellResult& balanced(const Eigen::VectorXd& u) {
     for (int i = 0; i < 30; ++i) {
-      const CellResult& r = kernel->evaluate(discretisation.geometry.of(0), u.data(), pressure.data(),
+      const CellResult& r = kernel->evaluate(discretisation.geometry.of(0), u.data(), internal.data(),
                                              Wanted::stress_and_tangent);
       REQUIRE(r.valid);
-      if (r.volume_mismatch <= 1e-15) break;
-      pressure.head(r.pressure_residual.size()) += r.pressure_residual;
+      if (r.volume_mismatch <= 1e-15 && r.bubble_imbalance <= 1e-30) break;
+      internal.head(r.internal_residual.size()) += r.internal_residual;
     }
-    return kernel->evaluate(discretisation.geometry.of(0), u.data(), pressure.data(),
+    return kernel->evaluate(discretisation.geometry.of(0), u.data(), internal.data(),
                             Wanted::stress_and_tangent);
   }
   /// Internal force with its degrees of freedom in the order of the displacement.
@@ -125,7 +127,7 @@ Eigen::MatrixXd bbar_stiffness(const CellGeometry& g, const cases::LinearElastic
 
 bool has_meaning(cases::Formulation formulation, Element element) {
   return formulation != cases::Formulation::saint_venant_kirchhoff || element == Element::q1 ||
-         element == Element::q2;
+         element == Element::q1_wilson || element == Element::q2;
 }
 
 } // namespace
@@ -211,6 +213,40 @@ TEST_CASE("in small strain a condensed constant pressure is B-bar, computed from
   CHECK((tangent - bbar).norm() <= 1e-13 * bbar.norm()); // rounding error
   const auto own = element_stiffness(cases::cell_vertices(cell.scene.mesh, 0), elastic, Element::q1_bbar);
   CHECK((own - bbar).norm() <= 1e-13 * bbar.norm());
+}
+
+/// A cube's bending, twist and warp as Wilson's element has them: those of quadratic displacements in
+/// equilibrium, in units of mu times the edge (Wilson et al. 1973; the closed forms follow from the modes).
+TEST_CASE("Wilson's cube resists bending, twist and warp as quadratic displacements do", "[verification]") {
+  const double nu = GENERATE(0., 0.25, 0.35, 0.45);
+  const auto elastic = scenes::thesis_elastic(nu);
+  cases::Scene scene = scenes::distorted_box(1, scenes::Surface::free, elastic,
+                                             cases::Formulation::small_strain, Element::q1_wilson);
+  for (int v = 0; v < 8; ++v) scene.mesh.nodes.stored()[v] = Eigen::Vector3d(v & 1, (v >> 1) & 1, v >> 2);
+  const Formulation formulation = make_formulation(scene.definition.fem, elastic);
+  const Discretisation body(scene, element_type(scene.definition.fem, formulation), MPI_COMM_SELF);
+  const auto kernel = formulation.make_kernel(body.element);
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(24);
+  const Eigen::MatrixXd k =
+      kernel->evaluate(body.geometry.of(0), rest.data(), rest.data(), Wanted::stress_and_tangent).tangent;
+  const auto resistance = [&](const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& mode) {
+    Eigen::VectorXd m(24);
+    for (int a = 0; a < 8; ++a) {
+      const Eigen::Vector3d x = 2 * body.nodes.point[static_cast<std::size_t>(body.nodes.of_cell[a])];
+      const Eigen::Vector3d u = mode(x - Eigen::Vector3d::Ones());
+      for (int i = 0; i < 3; ++i) m(8 * i + a) = u[i];
+    }
+    return m.dot(k * m) / m.squaredNorm() / mechanics::elastic_moduli(elastic).mu;
+  };
+  using Eigen::Vector3d;
+  CHECK(resistance([](const Vector3d& x) { return Vector3d(0, x[0] * x[1], x[0] * x[2]); }) ==
+        Approx((1 + nu) / (3 * (1 - nu))).epsilon(1e-12));
+  CHECK(resistance([](const Vector3d& x) { return Vector3d(0, x[0] * x[1], -x[0] * x[2]); }) ==
+        Approx(1. / 3).epsilon(1e-12));
+  CHECK(resistance([](const Vector3d& x) { return Vector3d(-x[1] * x[2], x[0] * x[2], 0); }) ==
+        Approx(1. / 6).epsilon(1e-12));
+  CHECK(resistance([](const Vector3d& x) { return Vector3d(x[1] * x[2], x[0] * x[2], x[0] * x[1]); }) ==
+        Approx(2. / 3).epsilon(1e-12));
 }
 
 TEST_CASE("an inverted cell is refused, and so is a state that is not a number") {

@@ -10,8 +10,9 @@ using namespace springproof;
 /// Scenes that the tests of the finite-element side share.
 namespace scenes {
 
-constexpr cases::Element all_elements[] = {cases::Element::q1, cases::Element::q1_bbar, cases::Element::q1_p0,
-                                           cases::Element::q2, cases::Element::q2_p1};
+constexpr cases::Element all_elements[] = {cases::Element::q1,    cases::Element::q1_bbar,
+                                           cases::Element::q1_p0, cases::Element::q1_wilson,
+                                           cases::Element::q2,    cases::Element::q2_p1};
 
 inline cases::Load traction(const std::string& where, const Eigen::Vector3d& value) {
   return {{where}, cases::loads::Traction{value}};

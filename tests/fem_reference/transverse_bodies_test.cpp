@@ -39,8 +39,8 @@ Vector3d force_on_face(const Solved& body, int axis) {
 
 TEST_CASE("distorted hexahedra with a fibre askew hold an affine displacement and its stress exactly",
           "[verification]") {
-  const Element element =
-      GENERATE(Element::q1, Element::q1_bbar, Element::q1_p0, Element::q2, Element::q2_p1);
+  const Element element = GENERATE(Element::q1, Element::q1_bbar, Element::q1_p0, Element::q1_wilson,
+                                   Element::q2, Element::q2_p1);
   const cases::Formulation formulation =
       GENERATE(cases::Formulation::small_strain, cases::Formulation::log_strain);
   const auto material = scenes::fibrous({1, 2, -0.5});
@@ -63,8 +63,8 @@ TEST_CASE("distorted hexahedra with a fibre askew hold an affine displacement an
 }
 
 TEST_CASE("a cube pulled along its fibre or across it is the closed form", "[verification]") {
-  const Element element =
-      GENERATE(Element::q1, Element::q1_bbar, Element::q1_p0, Element::q2, Element::q2_p1);
+  const Element element = GENERATE(Element::q1, Element::q1_bbar, Element::q1_p0, Element::q1_wilson,
+                                   Element::q2, Element::q2_p1);
   const bool is_along = GENERATE(true, false);
   const auto m = scenes::fibrous(is_along ? Vector3d::UnitX() : Vector3d::UnitZ());
   const double modulus = is_along ? m.youngs_modulus_along : m.youngs_modulus_across;
