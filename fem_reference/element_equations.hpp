@@ -16,10 +16,10 @@ class ElementEquations : public mechanics::DynamicProblem {
   /// Whether the last direction was not found.
   virtual bool linear_solver_failed() const { return false; }
 
-  /// Work says nothing about a saddle point (pressure modes), while supports still move, or when one step is
-  /// exact.
+  /// Work on the nodes alone says nothing where cells have unknowns of their own, while supports still move,
+  /// or when one step is exact.
   mechanics::Merit merit() const override {
-    return has_modes_ || is_linear_ || largest_gap_ > 0 ? mechanics::Merit::none : mechanics::Merit::work;
+    return has_internal_ || is_linear_ || largest_gap_ > 0 ? mechanics::Merit::none : mechanics::Merit::work;
   }
   void external_force(double time, mechanics::Vector& force) override {
     force = rest();
@@ -27,10 +27,11 @@ class ElementEquations : public mechanics::DynamicProblem {
   }
 
  protected:
-  /// @param is_linear  whether one step solves the equations
-  ElementEquations(bool has_modes, bool is_linear) : has_modes_(has_modes), is_linear_(is_linear) {}
+  /// @param has_internal  whether cells have unknowns of their own: pressures or bubbles
+  /// @param is_linear     whether one step solves the equations
+  ElementEquations(bool has_internal, bool is_linear) : has_internal_(has_internal), is_linear_(is_linear) {}
 
-  const bool has_modes_, is_linear_;
+  const bool has_internal_, is_linear_;
   double load_norm_ = 0;   ///< N, on free degrees of freedom
   double largest_gap_ = 0; ///< mm: largest distance of a support from where it has to be
   std::optional<mechanics::StepTerms> step_;

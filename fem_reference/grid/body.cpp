@@ -31,18 +31,20 @@ Layout make_layout(const std::array<int, 3>& cells) {
 }
 
 Body::Body(const std::array<int, 3>& cells_of_grid, const Slab& slab_, const Eigen::Vector3d& spacing_,
-           Law law_, bool has_modes_)
+           Law law_, Internal internal_)
     : cells{cells_of_grid[0], cells_of_grid[1], slab_.n_layers()}, spacing(spacing_),
-      layout(make_layout(cells)), slab(slab_), law(law_), has_modes(has_modes_),
+      layout(make_layout(cells)), slab(slab_), law(law_), internal(internal_),
       weight(index(layout.n_cell_entries() + 16)), free(Field<float>::Zero(3 * layout.size)) {}
 
 Cells Body::view() const {
   Cells view{};
   view.layout = layout;
   view.law = law;
-  view.has_modes = has_modes;
+  view.internal = internal;
   for (int q = 0; q < 8; ++q) {
-    const Eigen::Matrix<double, 3, 8> gradients = mechanics::shape_gradients(mechanics::gauss_point(q));
+    const Eigen::Vector3d at = mechanics::gauss_point(q);
+    const Eigen::Matrix<double, 3, 8> gradients = mechanics::shape_gradients(at);
+    for (int d = 0; d < 3; ++d) view.bubbles[q][d] = (4 - 8 * at[d]) / spacing[d];
     for (int a = 0; a < 8; ++a)
       for (int d = 0; d < 3; ++d) view.gradients[q][a][d] = gradients(d, a) / spacing[d];
   }
@@ -79,7 +81,7 @@ Body coarsen(const Body& fine, const std::array<int, 3>& factor) {
     cells[a] = (fine_cells[a] + factor[a] - 1) / factor[a];
     spacing[static_cast<int>(a)] = factor[a] * fine.spacing[static_cast<int>(a)];
   }
-  Body coarse(cells, coarsen(fine.slab, cells, factor[2] == 2), spacing, fine.law, fine.has_modes);
+  Body coarse(cells, coarsen(fine.slab, cells, factor[2] == 2), spacing, fine.law, fine.internal);
   const int first = fine.slab.first_of_grid(), first_coarse = coarse.slab.first_of_grid();
   const float share = 1.0f / static_cast<float>(factor[0] * factor[1] * factor[2]);
   const auto place = [&](int i, int j, int k) {

@@ -13,14 +13,14 @@ namespace springproof::fem_reference::grid {
 struct Body {
   /// @param cells  the whole grid's    @param slab  the planes of nodes that this rank holds
   Body(const std::array<int, 3>& cells, const Slab& slab, const Eigen::Vector3d& spacing, Law law,
-       bool has_modes);
+       Internal internal);
 
   std::array<int, 3> cells; ///< the slab's
   Eigen::Vector3d spacing;  ///< mm
   Layout layout;
   Slab slab;
   Law law;
-  bool has_modes;                 ///< a pressure of its own in every cell
+  Internal internal;
   std::vector<float> weight;      ///< per cell entry of the layout: 1, or 0 where there is none
   int n_parameters = 0;           ///< the law's
   std::vector<double> parameters; ///< n_parameters for all cells, or [parameter][cell entry]
@@ -28,6 +28,10 @@ struct Body {
 
   bool has_one_material() const { return parameters.size() == static_cast<std::size_t>(n_parameters); }
   std::array<int, 3> cells_of_grid() const { return {cells[0], cells[1], slab.n_planes_of_grid() - 1}; }
+  /// Entries of the cells' own unknowns in a state: [field][cell entry], and what packs read beyond.
+  std::ptrdiff_t n_internal() const {
+    return internal == Internal::none ? 0 : n_fields(internal) * layout.n_cell_entries() + 16;
+  }
   Space space(int n_threads) const { return {layout, slab, n_threads}; }
   /// Returns what the kernels need; it points into this body.
   Cells view() const;

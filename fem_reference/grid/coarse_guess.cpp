@@ -86,11 +86,10 @@ CoarseGuess coarse_guess(const Body& body, const Supported& supported, double lo
     const std::vector<double> values = supported.prescribed(load_factor);
     for (std::size_t m = 0; m < values.size(); ++m) fine[supported.moved[m]] = values[m];
   }
-  Vector& state =
-      guess.state.emplace(Vector::Zero(3 * to.size + (body.has_modes ? to.n_cell_entries() + 16 : 0)));
+  Vector& state = guess.state.emplace(Vector::Zero(3 * to.size + body.n_internal()));
   state.head(3 * to.size) = fine;
   const int first = body.slab.first_of_grid(), first_coarse = coarse.slab.first_of_grid();
-  if (body.has_modes)
+  if (body.internal == Internal::pressure) // bubbles follow in Newton's first step
     mechanics::grid::for_each_place(body.cells, [&](int i, int j, int k) {
       const std::ptrdiff_t around =
           from.cell(i / (*factor)[0], j / (*factor)[1], (first + k) / (*factor)[2] - first_coarse);

@@ -53,14 +53,19 @@ std::array<int, 3> cells_along(const cases::Scene& scene, int along) {
   return cells;
 }
 
+Internal internal_of(cases::Element element) {
+  if (element == cases::Element::q1_wilson) return Internal::bubbles;
+  return element == cases::Element::q1_bbar || element == cases::Element::q1_p0 ? Internal::pressure
+                                                                                : Internal::none;
+}
+
 /// @param along        elements along an edge of a cell
 /// @param first_layer  first layer of cells that the slab holds, by its grid index
 Body make_body(const cases::Scene& scene, int along, const Slab& of_nodes, int first_layer) {
   const cases::Element element = scene.definition.fem.element;
   const auto materials = cases::materials_of(scene.definition);
   Body made(cells_along(scene, along), of_nodes, scene.mesh.grid->spacing / along,
-            law_of(scene.definition.fem.formulation),
-            element == cases::Element::q1_bbar || element == cases::Element::q1_p0);
+            law_of(scene.definition.fem.formulation), internal_of(element));
   const bool is_uniform = scene.material_of_cell.empty();
   made.parameters = parameters_of(materials.front());
   made.n_parameters = static_cast<int>(made.parameters.size());
@@ -197,12 +202,13 @@ ElementsInState GridBody::elements(const Vector& state, const cases::Sharing* sh
   });
   std::vector<Formulation> formulations = formulations_of(scene);
   const ElementType type = element_type(scene.definition.fem, formulations.front());
-  const auto cuboid =
-      std::make_shared<Cuboid>(type.degree, type.n_pressure_modes, scene.mesh.grid->spacing / cell_factor_);
-  const auto for_each = [this, &state, sharing, cuboid, degree = type.degree](const auto& action) {
+  const auto cuboid = std::make_shared<Cuboid>(type.degree, type.n_pressure_modes,
+                                               scene.mesh.grid->spacing / cell_factor_, type.n_bubbles);
+  const auto for_each = [this, &state, sharing, cuboid, type](const auto& action) {
+    const int degree = type.degree;
     const int n = degree + 1;
     const double edge = 1. / cell_factor_;
-    std::vector<double> displacement(3 * cuboid->nodes().size());
+    std::vector<double> displacement(3 * cuboid->nodes().size()), internal(index(type.n_internal()));
     for_each_element(sharing, [&](const Part& part, std::size_t entry) {
       double* to = displacement.data();
       for (int a = 0; a < n * n * n; ++a, to += 3) {
@@ -210,9 +216,11 @@ ElementsInState GridBody::elements(const Vector& state, const cases::Sharing* sh
                          degree * part.at[2] + a / (n * n));
         Eigen::Map<Eigen::Vector3d>{to} = displacement_at(node, state);
       }
-      const double pressure = body_.has_modes ? state[equations.n_displacements() + Eigen::Index(entry)] : 0;
+      for (std::size_t f = 0; f < internal.size(); ++f)
+        internal[f] = state[equations.n_displacements() +
+                            static_cast<Eigen::Index>(f * index(body_.layout.n_cell_entries()) + entry)];
       const Eigen::Vector3d lower = edge * Eigen::Vector3d(part.in_cell[0], part.in_cell[1], part.in_cell[2]);
-      action({{part.cell, lower, edge}, cuboid->geometry(), displacement.data(), &pressure});
+      action({{part.cell, lower, edge}, cuboid->geometry(), displacement.data(), internal.data()});
     });
   };
   return {scene, std::move(formulations), type, cuboid->nodes(), cells, for_each};

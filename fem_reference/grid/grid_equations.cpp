@@ -29,35 +29,38 @@ constexpr int restart_of(std::ptrdiff_t n) {
 
 GridEquations::GridEquations(const Body& body, const Supported& supported, int n_threads,
                              QuadraticElements* quadratic, double volume_tolerance)
-    : ElementEquations(body.has_modes, body.law == Law::small_strain), body_(body), supported_(supported),
-      space_(body.space(n_threads)), quadratic_(quadratic),
+    : ElementEquations(body.internal != Internal::none, body.law == Law::small_strain), body_(body),
+      supported_(supported), space_(body.space(n_threads)), quadratic_(quadratic),
       multigrid_(body, n_threads, quadratic ? quadratic_smoother : linear_smoother),
       volume_tolerance_(volume_tolerance) {
   load_norm_ = norm(space_, supported.load);
 }
 
-/// Adds the internal force, and sets volume_mismatch_ and condensed_.  @return whether the state is
-/// admissible
+/// Adds the internal force, and sets volume_mismatch_, bubble_imbalance_ and condensed_.  @return whether the
+/// state is admissible
 bool GridEquations::add_force(const Vector& at, Field<double>& force) {
   volume_mismatch_ = 0;
+  bubble_imbalance_.assign(index(space_.slab.n_planes()), 0.); // above the last plane is no layer
   if (quadratic_) {
     const bool is_valid = quadratic_->add_force(at.data(), force.data(), nullptr);
     condensed_ = force;
     return is_valid;
   }
-  condensed_.setZero(body_.has_modes ? n_displacements() : 0);
+  condensed_.setZero(has_internal_ ? n_displacements() : 0);
   const ForceFields fields{at.data(), at.data() + n_displacements(), force.data(),
-                           body_.has_modes ? condensed_.data() : nullptr, nullptr};
+                           has_internal_ ? condensed_.data() : nullptr, nullptr};
   const Cells view = body_.view();
   const Checks checks = check_layers(body_.slab, space_.n_threads, [&](int k, Checks& of_layer) {
     kernels().force(view, fields, k, of_layer);
+    bubble_imbalance_[index(k)] = of_layer.bubble_imbalance;
   });
   volume_mismatch_ = checks.volume_mismatch;
-  if (!body_.has_modes) condensed_ = force;
+  if (!has_internal_) condensed_ = force;
   return checks.valid;
 }
 
-/// Adds the inertia and damping of a step in time to the force, and to that with the pressures' imbalance.
+/// Adds the inertia and damping of a step in time to the force, and to that with the imbalance of the cells'
+/// unknowns.
 void GridEquations::add_inertia(const Vector& at, Field<double>& force) {
   Field<double> way = at.head(n_displacements()) - step_->origin.head(n_displacements());
   space_.slab.update_ghosts(space_.layout, way.data());
@@ -144,7 +147,13 @@ void GridEquations::residual(const Vector& at, double load_factor, mechanics::Ex
 
 GridEquations::Size GridEquations::size(const Vector& residual, const Vector&) {
   if (!is_valid_) return {std::numeric_limits<double>::quiet_NaN(), false};
-  const double imbalance = std::sqrt(dot(residual, residual));
+  double squared = dot(residual, residual);
+  if (body_.internal == Internal::bubbles) {
+    const auto [begin, end] = space_.slab.computed();
+    const auto of_layers = bubble_imbalance_.begin();
+    squared += space_.slab.total({of_layers + begin, of_layers + end});
+  }
+  const double imbalance = std::sqrt(squared);
   return {imbalance == 0 ? 0 : imbalance / scale(bool(supported_.prescribed), reaction_),
           volume_mismatch_ <= volume_tolerance_ && largest_gap_ <= 1e-12};
 }
@@ -212,11 +221,11 @@ bool GridEquations::direction(const Vector& at, const Vector&, double, double fo
   step.head(n_displacements()) = *solution;
   for (std::size_t i = 0; i < gap_.size(); ++i) step[supported_.moved[i]] = gap_[i];
   space_.slab.update_ghosts(space_.layout, step.data());
-  if (body_.has_modes) {
+  if (has_internal_) {
     const Cells view = body_.view();
     const ForceFields fields{at.data(), at.data() + n_displacements(), nullptr, nullptr, nullptr};
     for_each_plane({0, body_.cells[2]}, space_.n_threads, [&](int k) {
-      kernels().pressure_change(view, fields, step.data(), step.data() + n_displacements(), k);
+      kernels().internal_change(view, fields, step.data(), step.data() + n_displacements(), k);
     });
   }
   return true;
@@ -246,7 +255,9 @@ std::vector<GridEquations::Run> GridEquations::runs() const {
   };
   for (Eigen::Index c = 0; c < 3; ++c)
     add(c * here.size + here.lead, here.plane * here.nodes[2], c * whole.size + whole.at(0, 0, first));
-  if (body_.has_modes) add(3 * here.size, here.n_cell_entries(), 3 * whole.size + whole.cell(0, 0, first));
+  for (Eigen::Index f = 0; f < n_fields(body_.internal); ++f)
+    add(3 * here.size + f * here.n_cell_entries(), here.n_cell_entries(),
+        3 * whole.size + f * whole.n_cell_entries() + whole.cell(0, 0, first));
   return runs;
 }
 

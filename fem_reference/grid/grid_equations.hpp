@@ -15,10 +15,10 @@ constexpr double volume_tolerance_of(double residual_tolerance) {
 }
 
 /// The equations of a body on a grid, in equilibrium or in motion, without a factorisation. A state is the
-/// displacement of the nodes (mm), then the pressures of the cells (MPa), where they have one; a rank has
-/// those of all nodes and cells that its slab holds. Forces are right in the planes that a rank computes.
-/// Supports are part of the equations, as in EquilibriumEquations; pressures have no inertia. Every member
-/// function that evaluates a state is collective.
+/// displacement of the nodes (mm), then the pressures (MPa) or bubbles (mm) of the cells, where they have
+/// any; a rank has those of all nodes and cells that its slab holds. Forces are right in the planes that a
+/// rank computes. Supports are part of the equations, as in EquilibriumEquations; the cells' unknowns have no
+/// inertia. Every member function that evaluates a state is collective.
 class GridEquations : public ElementEquations {
  public:
   /// @param body, supported  must outlive this
@@ -29,9 +29,8 @@ class GridEquations : public ElementEquations {
                 QuadraticElements* quadratic = nullptr, double volume_tolerance = 1e-12);
 
   using Vector = mechanics::Vector;
-  Vector rest() const override { return Vector::Zero(n_displacements() + n_pressures()); }
+  Vector rest() const override { return Vector::Zero(n_displacements() + body_.n_internal()); }
   Eigen::Index n_displacements() const { return 3 * body_.layout.size; }
-  Eigen::Index n_pressures() const { return body_.has_modes ? body_.layout.n_cell_entries() + 16 : 0; }
 
   using NonlinearProblem::direction;
   using NonlinearProblem::residual;
@@ -52,7 +51,7 @@ class GridEquations : public ElementEquations {
   void mass_product(const Vector& motion, Vector& product) override { multiply({1, 0}, motion, product); }
   void damping_product(const Vector& motion, Vector& product) override { multiply({0, 1}, motion, product); }
   void supports_at(double time, Vector& displacement) const override;
-  /// Pressures follow from displacements in each step.
+  /// The cells' unknowns follow from displacements in each step.
   void complete(Vector& motion) override { body_.slab.update_ghosts(body_.layout, motion.data()); }
   /// Makes residuals those of the step, relative to its scale, whatever the load factor.
   void set_step(const mechanics::StepTerms& terms) override;
@@ -83,9 +82,11 @@ class GridEquations : public ElementEquations {
   bool begins_step_ = false;    ///< this step has had no direction yet
   bool is_easy_ = true;         ///< every iteration of the step gained much
   bool carries_tangent_ = true; ///< a step begins with the tangent of the one before
-  Field<double> condensed_;     ///< force with the pressures' imbalance in the state last evaluated, N
+  Field<double>
+      condensed_; ///< force with the imbalance of the cells' unknowns in the state last evaluated, N
   std::vector<double> gap_;     ///< gaps of the moved entries there, mm
   double reaction_ = 0, volume_mismatch_ = 0;
+  std::vector<double> bubble_imbalance_; ///< squared, of the layers of cells, N²
   bool is_valid_ = false, has_failed_ = false;
 
   bool add_force(const Vector& at, Field<double>& force);

@@ -64,7 +64,7 @@ void Inertia::make_damping_body(const cases::Scene& scene, const Places& places)
     damping.parameters[n_entries + entry] = factor * moduli.kappa;
   });
   force_.setZero(3 * body_.layout.size);
-  pressed_.setZero(3 * body_.layout.size);
+  condensed_.setZero(3 * body_.layout.size);
 }
 
 void Inertia::factor(const Factors& factors, std::vector<double>& masses) const {
@@ -115,14 +115,15 @@ void Inertia::add_product(const Factors& factors, const Field<double>& field, Fi
                  [&](int k) { kernels().mass(body_.layout, masses, field.data(), product.data(), k); });
   if (node_mass_.size() > 0) product += factors.mass * node_mass_.cwiseProduct(field);
   if (!damping_body_ || factors.damping == 0) return;
-  // The linear body's force at this displacement, with the pressures that belong to it.
+  // The linear body's force at this displacement, with the unknowns of its cells that belong to it.
   const Cells view = damping_view(factors.damping);
-  const std::vector<double> no_pressure(factored_.size(), 0.);
-  Field<double>& force = view.has_modes ? pressed_ : force_;
+  const std::vector<double> at_rest(index(damping_body_->n_internal()), 0.);
+  const bool is_condensed = view.internal != Internal::none;
+  Field<double>& force = is_condensed ? condensed_ : force_;
   force_.setZero();
-  pressed_.setZero();
-  const ForceFields fields{field.data(), no_pressure.data(), force_.data(),
-                           view.has_modes ? pressed_.data() : nullptr, nullptr};
+  condensed_.setZero();
+  const ForceFields fields{field.data(), at_rest.data(), force_.data(),
+                           is_condensed ? condensed_.data() : nullptr, nullptr};
   check_layers(body_.slab, n_threads_,
                [&](int k, Checks& checks) { kernels().force(view, fields, k, checks); });
   product += force;

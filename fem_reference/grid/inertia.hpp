@@ -44,7 +44,7 @@ class Inertia {
   Factors step_;
   std::vector<double> step_masses_, factored_; ///< t/s²: the step's, and the last product's
   Field<double> step_node_masses_;
-  Field<double> force_, pressed_; ///< the damping body's
+  Field<double> force_, condensed_; ///< the damping body's
 
   void factor(const Factors& factors, std::vector<double>& masses) const;
   Masses in_parts(const std::vector<double>& masses) const;

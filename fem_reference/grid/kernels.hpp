@@ -28,12 +28,23 @@ constexpr int upper(int r, int s) {
   return r <= s ? 24 * r - r * (r - 1) / 2 + s - r : 24 * s - s * (s - 1) / 2 + r - s;
 }
 
+/// Unknowns of its own that a cell has, beside the displacements of its nodes.
+enum class Internal {
+  none,
+  pressure, ///< a constant one
+  bubbles   ///< Wilson's: 4 t (1 - t) for t = 0 to 1 along each axis, with three components each
+};
+constexpr int n_fields(Internal internal) {
+  return internal == Internal::none ? 0 : internal == Internal::pressure ? 1 : 9;
+}
+
 /// What the kernels know of a body.
 struct Cells {
   Layout layout;
   Law law;
-  bool has_modes;                ///< a constant pressure of its own in every cell; otherwise pointwise
+  Internal internal;
   double gradients[8][8][3];     ///< dN_a/dX at Gauss point q: [q][a], 1/mm
+  double bubbles[8][3];          ///< slopes along their axes at Gauss point q: [q][bubble], 1/mm
   double point_volume;           ///< one Gauss point's, mm³
   const float* weight;           ///< per cell: 1, 0 where there is none, between on coarser grids
   int n_parameters;              ///< as parameters_of() of mechanics has them
@@ -59,19 +70,20 @@ struct Masses {
 struct Checks {
   bool valid = true;          ///< false: J <= 0 or not a number at a Gauss point of some cell
   double volume_mismatch = 0; ///< the largest that a cell's pressure leaves, relative
+  double bubble_imbalance = 0; ///< sum of the squared forces on bubbles, N²
 };
 
 struct ForceFields {
   const double* displacement;
-  const double* pressure; ///< per cell; with modes
+  const double* internal; ///< the cells' unknowns: [field][cell], MPa or mm
   double* force;          ///< added to: internal force, N
-  double* condensed;      ///< added to: the same with the pressures' imbalance; or null
+  double* condensed;      ///< added to: the same with the imbalance of the cells' unknowns; or null
   double* volume;         ///< per cell: deformed volume, mm³; or null
 };
 
 struct TangentFields {
   const double* displacement;
-  const double* pressure;
+  const double* internal;
   const float* free;              ///< field: 0 where constrained, else 1; null when there is no coarser level
   float* stencil;                 ///< added to
   float* coarse;                  ///< added to: cell matrices of the coarser grid; or null
@@ -88,8 +100,9 @@ struct Coarsening {
 struct Kernels {
   /// Layer k of cells: adds to the planes k and k + 1 of nodes.
   void (*force)(const Cells&, const ForceFields&, int layer, Checks&);
-  /// Change of the cells' pressures with a step: C^-1 (R + B step), to first order. The state is `fields`'.
-  void (*pressure_change)(const Cells&, const ForceFields& fields, const double* step, double* change,
+  /// Change of the cells' unknowns with a step, to first order: C^-1 (R + B step) of pressures,
+  /// -K_bb^-1 (f_b + K_bu step) of bubbles. The state is `fields`'.
+  void (*internal_change)(const Cells&, const ForceFields& fields, const double* step, double* change,
                           int layer);
   /// The tangent; its symmetric part for the coarser grid.
   void (*tangent)(const Cells&, const TangentFields&, const Coarsening&, int layer);

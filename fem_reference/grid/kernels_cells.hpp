@@ -1,86 +1,12 @@
-// Part of kernels_source.hpp, in its namespace: forces, tangents and masses of cells.
+// Part of kernels_source.hpp, in its namespace: forces, tangents and masses of layers of cells.
 #pragma once
 
-/// Displacement of a cell's corners: [corner][component].
-template<class P>
-using Corners = P[8][3];
-
-SPRINGPROOF_INLINE std::ptrdiff_t corner_of(const Layout& layout, int a) {
-  return (a & 1) + (a >> 1 & 1) * layout.row + (a >> 2) * layout.plane;
-}
-
-SPRINGPROOF_INLINE void load_parameter(const double* from, PackD& to) {
-  to = load(from);
-}
-SPRINGPROOF_INLINE void load_parameter(const double* from, PackF& to) {
-  to = narrow(load(from), load(from + pack_size<double>));
-}
-
-template<class P>
-SPRINGPROOF_INLINE Parameters<P> parameters_of(const Cells& cells, std::ptrdiff_t cell) {
-  Parameters<P> m;
-  m.n = cells.n_parameters;
-  for (int e = 0; e < m.n; ++e)
-    if (cells.parameters)
-      m.value[e] = constant<P>(cells.parameters[e]);
-    else {
-      load_parameter(cells.cell_parameters + e * cells.layout.n_cell_entries() + cell, m.value[e]);
-      m.value[e] = m.value[e] == P{} ? constant<P>(1) : m.value[e]; // where there is no cell
-    }
-  return m;
-}
-
-template<class P>
-SPRINGPROOF_INLINE void displacement_gradient(const Cells& cells, int q, const Corners<P>& u, P (&h)[9]) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      P sum{};
-      for (int a = 0; a < 8; ++a) sum += u[a][i] * static_cast<RealOf<P>>(cells.gradients[q][a][j]);
-      h[3 * i + j] = sum;
-    }
-}
-
-/// J - 1 as the law's kinematics have it.
-template<class L, class P>
-SPRINGPROOF_INLINE P dilatation_of(const P (&h)[9]) {
-  if constexpr (L::is_finite)
-    return growth_of(h);
-  else
-    return h[0] + h[4] + h[8];
-}
-template<class L, class P>
-SPRINGPROOF_INLINE void cofactor_of(const P (&h)[9], P (&c)[9]) {
-  if constexpr (L::is_finite) {
-    P f[9];
-    deformation_gradient(h, f);
-    cofactor(f, c);
-  } else
-    for (int e = 0; e < 9; ++e) c[e] = constant<P>(e % 4 == 0 ? 1 : 0);
-}
-
-/// force += (stress . grad N_a)
-template<class P>
-SPRINGPROOF_INLINE void add_divergence(const Cells& cells, int q, const P (&stress)[9], Corners<P>& force) {
-  for (int a = 0; a < 8; ++a)
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        force[a][i] += stress[3 * i + j] * static_cast<RealOf<P>>(cells.gradients[q][a][j]);
-}
-
-/// Displacement of the cells' corners; 0 where there is no cell.
-SPRINGPROOF_INLINE void load_corners(const Layout& layout, const double* field, std::ptrdiff_t node,
-                                     const PackD& weight, Corners<PackD>& u) {
-  for (int a = 0; a < 8; ++a)
-    for (int c = 0; c < 3; ++c) {
-      const PackD value = load(field + c * layout.size + node + corner_of(layout, a));
-      u[a][c] = weight > PackD{} ? value : PackD{};
-    }
-}
-
-template<class L, bool modes>
+template<class L, Internal internal>
 void force_layer(const Cells& cells, const ForceFields& fields, int k, Checks& checks) {
+  constexpr bool modes = internal == Internal::pressure, bubbles = internal == Internal::bubbles;
+  using M = typename L::Moduli;
   const Layout& layout = cells.layout;
-  PackD mismatch{};
+  PackD mismatch{}, imbalance{};
   for (int j = 0; j < layout.nodes[1] - 1; ++j)
     for (int i = 0; i < layout.nodes[0] - 1; i += pack_size<double>) {
       const std::ptrdiff_t cell = layout.cell(i, j, k), node = layout.at(i, j, k);
@@ -89,17 +15,19 @@ void force_layer(const Cells& cells, const ForceFields& fields, int k, Checks& c
       Corners<PackD> u, force{}, volume_gradient{};
       load_corners(layout, fields.displacement, node, weight, u);
       const Parameters<PackD> m = parameters_of<PackD>(cells, cell);
-      PackD p{}, growth{}, volume{}, lowest{};
+      PackD own[bubbles ? 9 : 1] = {}, growth{}, volume{}, lowest{};
+      load_internal<n_fields(internal)>(cells, fields.internal, cell, weight, own);
+      const PackD& p = own[0];
       ValueAndSlope<PackD> target{};
-      if constexpr (modes) {
-        p = load(fields.pressure + cell);
-        p = weight > PackD{} ? p : PackD{};
-        target = L::dilatation(p, m);
-      }
+      if constexpr (modes) target = L::dilatation(p, m);
+      Bubbles<PackD> on_bubbles{};
+      BubbleStiffness<PackD> stiffness;
 #pragma GCC unroll 1
       for (int q = 0; q < 8; ++q) {
         PackD h[9], stress[9];
         displacement_gradient(cells, q, u, h);
+        if (fields.volume) volume += 1 + growth_of(h);
+        if constexpr (bubbles) add_bubble_gradient(cells, q, own, h);
         const PackD dilatation = dilatation_of<L>(h);
         lowest = dilatation > lowest ? lowest : dilatation; // keeps what is not a number
         L::stress(h, m, stress);
@@ -113,7 +41,14 @@ void force_layer(const Cells& cells, const ForceFields& fields, int k, Checks& c
         }
         add_divergence(cells, q, stress, force);
         growth += dilatation;
-        if (fields.volume) volume += 1 + (L::is_finite ? dilatation : growth_of(h));
+        if constexpr (bubbles) {
+          add_bubble_force(cells, q, stress, on_bubbles);
+          if (!fields.condensed) continue;
+          PackD moduli[M::n];
+          moduli_of<L, false>(h, PackD{}, m, moduli);
+          add_own<M>(cells, q, moduli, stiffness.own);
+          add_coupling<M, Coupling::on_corners>(cells, q, moduli, stiffness.on_corners);
+        }
       }
       const PackD least = constant<PackD>(L::is_finite ? -1 : -1e100);
       if (!all_greater(lowest, least)) {
@@ -128,22 +63,75 @@ void force_layer(const Cells& cells, const ForceFields& fields, int k, Checks& c
         const PackD size = weight > PackD{} ? absolute(off) : PackD{};
         mismatch = larger(size, mismatch);
       }
+      if constexpr (bubbles) {
+        for (const PackD& f : on_bubbles) imbalance += scale * f * (scale * f);
+        if (fields.condensed) {
+          factorise(stiffness.own);
+          solve(stiffness.own, on_bubbles);
+        }
+      }
       if (fields.volume)
         store(fields.volume + cell, weight > PackD{} ? volume * cells.point_volume : PackD{});
       for (int a = 0; a < 8; ++a)
         for (int c = 0; c < 3; ++c) {
           const std::ptrdiff_t at = c * layout.size + node + corner_of(layout, a);
           if (fields.force) add(fields.force + at, scale * force[a][c]);
-          if (fields.condensed)
-            add(fields.condensed + at, scale * (force[a][c] + change * volume_gradient[a][c]));
+          if (!fields.condensed) continue;
+          PackD condensed = force[a][c] + change * volume_gradient[a][c];
+          for (int b = 0; bubbles && b < 9; ++b) condensed -= stiffness.on_corners[a][c][b] * on_bubbles[b];
+          add(fields.condensed + at, scale * condensed);
         }
     }
-  for (int l = 0; l < pack_size<double>; ++l)
+  for (int l = 0; l < pack_size<double>; ++l) {
     if (mismatch[l] > checks.volume_mismatch) checks.volume_mismatch = mismatch[l];
+    checks.bubble_imbalance += imbalance[l];
+  }
 }
 
+/// Replaces a cell's pressure by its change with the step du.
 template<class L>
-void pressure_change_layer(const Cells& cells, const ForceFields& fields, const double* step, double* change,
+SPRINGPROOF_INLINE void pressure_change(const Cells& cells, const Corners<PackD>& u, const Corners<PackD>& du,
+                                        const Parameters<PackD>& m, PackD& p) {
+  const ValueAndSlope<PackD> target = L::dilatation(p, m);
+  PackD growth{};
+#pragma GCC unroll 1
+  for (int q = 0; q < 8; ++q) {
+    PackD h[9], dh[9], area[9];
+    displacement_gradient(cells, q, u, h);
+    displacement_gradient(cells, q, du, dh);
+    cofactor_of<L>(h, area);
+    growth += dilatation_of<L>(h);
+    for (int e = 0; e < 9; ++e) growth += area[e] * dh[e];
+  }
+  p = (growth / 8 - target.value) / target.slope;
+}
+
+/// Replaces a cell's bubbles by their change with the step du.
+template<class L, class M = typename L::Moduli>
+SPRINGPROOF_INLINE void bubble_change(const Cells& cells, const Corners<PackD>& u, const Corners<PackD>& du,
+                                      const Parameters<PackD>& m, Bubbles<PackD>& bubbles) {
+  Bubbles<PackD> force{};
+  PackD stiffness[9][9] = {};
+#pragma GCC unroll 1
+  for (int q = 0; q < 8; ++q) {
+    PackD h[9], dh[9], stress[9], moduli[M::n];
+    displacement_gradient(cells, q, u, h);
+    displacement_gradient(cells, q, du, dh);
+    add_bubble_gradient(cells, q, bubbles, h);
+    stress_of<L>(h, m, stress);
+    moduli_of<L, false>(h, PackD{}, m, moduli);
+    for (int r = 0; r < 9; ++r)
+      for (int s = 0; s < 9; ++s) stress[r] += moduli[M::at(r, s)] * dh[s];
+    add_bubble_force(cells, q, stress, force);
+    add_own<M>(cells, q, moduli, stiffness);
+  }
+  factorise(stiffness);
+  solve(stiffness, force);
+  for (int b = 0; b < 9; ++b) bubbles[b] = -force[b];
+}
+
+template<class L, Internal internal>
+void internal_change_layer(const Cells& cells, const ForceFields& fields, const double* step, double* change,
                            int k) {
   const Layout& layout = cells.layout;
   for (int j = 0; j < layout.nodes[1] - 1; ++j)
@@ -154,44 +142,15 @@ void pressure_change_layer(const Cells& cells, const ForceFields& fields, const 
       load_corners(layout, fields.displacement, node, weight, u);
       load_corners(layout, step, node, weight, du);
       const Parameters<PackD> m = parameters_of<PackD>(cells, cell);
-      const PackD p = weight > PackD{} ? load(fields.pressure + cell) : PackD{};
-      const ValueAndSlope<PackD> target = L::dilatation(p, m);
-      PackD growth{};
-#pragma GCC unroll 1
-      for (int q = 0; q < 8; ++q) {
-        PackD h[9], dh[9], area[9];
-        displacement_gradient(cells, q, u, h);
-        displacement_gradient(cells, q, du, dh);
-        cofactor_of<L>(h, area);
-        growth += dilatation_of<L>(h);
-        for (int e = 0; e < 9; ++e) growth += area[e] * dh[e];
-      }
-      const PackD result = (growth / 8 - target.value) / target.slope;
-      store(change + cell, weight > PackD{} ? result : PackD{});
+      PackD own[n_fields(internal)];
+      load_internal<n_fields(internal)>(cells, fields.internal, cell, weight, own);
+      if constexpr (internal == Internal::pressure)
+        pressure_change<L>(cells, u, du, m, own[0]);
+      else
+        bubble_change<L>(cells, u, du, m, own);
+      for (int e = 0; e < n_fields(internal); ++e)
+        store(change + e * layout.n_cell_entries() + cell, weight > PackD{} ? own[e] : PackD{});
     }
-}
-
-/// The moduli dP/dF of a point, with its pressure's.
-template<class L, bool modes, class M = typename L::Moduli>
-SPRINGPROOF_INLINE void moduli_of(const PackF (&h)[9], const PackF& p, const Parameters<PackF>& m,
-                                  PackF (&moduli)[M::n]) {
-  L::moduli(h, m, moduli);
-  if constexpr (L::has_pressure) {
-    PackF f[9];
-    deformation_gradient(h, f);
-    if constexpr (modes) {
-      if constexpr (L::is_finite) add_cofactor_derivative<M>(f, p, moduli);
-    } else {
-      const ValueAndSlope<PackF> pressure = L::pressure(dilatation_of<L>(h), m);
-      PackF area[9];
-      cofactor_of<L>(h, area);
-      if constexpr (L::is_finite) add_cofactor_derivative<M>(f, pressure.value, moduli);
-      for (int r = 0; r < 9; ++r) {
-        const PackF weighted = pressure.slope * area[r];
-        for (int s = M::is_symmetric ? r : 0; s < 9; ++s) moduli[M::at(r, s)] += weighted * area[s];
-      }
-    }
-  }
 }
 
 /// A cell's matrix: all of it, or the upper triangle.
@@ -241,6 +200,22 @@ SPRINGPROOF_INLINE void constrain(const Layout& layout, const float* free, std::
     for (int s = r; s < 24; ++s) matrix[upper(r, s)] *= mask[r] * mask[s];
 }
 
+/// matrix -= on_corners K_bb^-1 on_bubbles^T. The bubbles' own stiffness is replaced by its factors.
+template<class K>
+SPRINGPROOF_INLINE void condense(BubbleStiffness<PackF>& stiffness, const PackF (&on_bubbles)[8][3][9],
+                                 K& matrix) {
+  factorise(stiffness.own);
+#pragma GCC unroll 1
+  for (int s = 0; s < 24; ++s) {
+    Bubbles<PackF> x;
+    for (int b = 0; b < 9; ++b) x[b] = on_bubbles[s / 3][s % 3][b];
+    solve(stiffness.own, x);
+#pragma GCC unroll 1
+    for (int r = 0; r < (K::is_symmetric ? s + 1 : 24); ++r)
+      for (int b = 0; b < 9; ++b) matrix.entry[K::at(r, s)] -= stiffness.on_corners[r / 3][r % 3][b] * x[b];
+  }
+}
+
 template<class K>
 SPRINGPROOF_INLINE void add_masses(const Masses& masses, std::ptrdiff_t cell, K& matrix) {
   const PackF mass = narrow(load(masses.of_cell + cell), load(masses.of_cell + cell + pack_size<double>));
@@ -250,8 +225,9 @@ SPRINGPROOF_INLINE void add_masses(const Masses& masses, std::ptrdiff_t cell, K&
         matrix.entry[K::at(3 * a + i, 3 * b + i)] += mass * static_cast<float>(masses.part[a][b]);
 }
 
-template<class L, bool modes>
+template<class L, Internal internal>
 void tangent_layer(const Cells& cells, const TangentFields& fields, const Coarsening& coarsening, int k) {
+  constexpr bool modes = internal == Internal::pressure, bubbles = internal == Internal::bubbles;
   using M = typename L::Moduli;
   using K = CellMatrix<M>;
   const Layout& layout = cells.layout;
@@ -268,19 +244,24 @@ void tangent_layer(const Cells& cells, const TangentFields& fields, const Coarse
       for (int a = 7; a >= 0; --a) // differences are what single precision can hold
         for (int c = 0; c < 3; ++c) u[a][c] = narrow(low[a][c] - low[0][c], high[a][c] - high[0][c]);
       const Parameters<PackF> m = parameters_of<PackF>(cells, cell);
-      PackF p{};
-      if constexpr (modes) {
-        p = narrow(load(fields.pressure + cell), load(fields.pressure + cell + pack_size<double>));
-        p = weight > PackF{} ? p : PackF{};
-      }
+      PackF own[bubbles ? 9 : 1] = {}, on_bubbles[8][3][9] = {};
+      load_internal<n_fields(internal)>(cells, fields.internal, cell, weight, own);
+      const PackF& p = own[0];
+      BubbleStiffness<PackF> stiffness;
       K matrix;
       for (int e = 0; e < K::n; ++e) matrix.entry[e] = PackF{};
 #pragma GCC unroll 1
       for (int q = 0; q < 8; ++q) {
         PackF h[9], moduli[M::n];
         displacement_gradient(cells, q, u, h);
+        if constexpr (bubbles) add_bubble_gradient(cells, q, own, h);
         moduli_of<L, modes>(h, p, m, moduli);
         add_stiffness<M>(cells, q, moduli, matrix);
+        if constexpr (bubbles) {
+          add_own<M>(cells, q, moduli, stiffness.own);
+          add_coupling<M, Coupling::on_corners>(cells, q, moduli, stiffness.on_corners);
+          if (!M::is_symmetric) add_coupling<M, Coupling::on_bubbles>(cells, q, moduli, on_bubbles);
+        }
         if constexpr (modes) {
           PackF area[9];
           cofactor_of<L>(h, area);
@@ -295,6 +276,7 @@ void tangent_layer(const Cells& cells, const TangentFields& fields, const Coarse
             matrix.entry[K::at(r, s)] += weighted * volume_gradient[s / 3][s % 3];
         }
       }
+      if constexpr (bubbles) condense(stiffness, M::is_symmetric ? stiffness.on_corners : on_bubbles, matrix);
       const PackF scale = weight * static_cast<float>(cells.point_volume);
       for (int e = 0; e < K::n; ++e) matrix.entry[e] *= scale;
       if (fields.masses) add_masses(*fields.masses, cell, matrix);
@@ -334,32 +316,39 @@ void mass_layer(const Layout& layout, const Masses& masses, const double* field,
 
 // ---- one entry for all laws -------------------------------------------------------------------------------
 
-/// Calls action(law, whether there are pressure modes).
+/// What cells have of their own, as a type.
+template<Internal of_cells>
+struct Unknowns {
+  static constexpr Internal internal = of_cells;
+};
+/// Calls action(law, its Unknowns).
 template<class Action>
-SPRINGPROOF_INLINE void with_modes(const Cells& cells, const Action& action) {
+SPRINGPROOF_INLINE void with_unknowns(const Cells& cells, const Action& action) {
   with_law(cells.law, [&](auto law) {
     if constexpr (decltype(law)::has_pressure)
-      if (cells.has_modes) return action(law, Count<1>{});
-    action(law, Count<0>{});
+      if (cells.internal == Internal::pressure) return action(law, Unknowns<Internal::pressure>{});
+    if (cells.internal == Internal::bubbles) return action(law, Unknowns<Internal::bubbles>{});
+    action(law, Unknowns<Internal::none>{});
   });
 }
 
 void force(const Cells& cells, const ForceFields& fields, int layer, Checks& checks) {
-  with_modes(cells, [&](auto law, auto modes) {
-    force_layer<decltype(law), decltype(modes)::value == 1>(cells, fields, layer, checks);
+  with_unknowns(cells, [&](auto law, auto unknowns) {
+    force_layer<decltype(law), decltype(unknowns)::internal>(cells, fields, layer, checks);
   });
 }
 
-void pressure_change(const Cells& cells, const ForceFields& fields, const double* step, double* change,
+void internal_change(const Cells& cells, const ForceFields& fields, const double* step, double* change,
                      int layer) {
-  with_modes(cells, [&](auto law, auto modes) {
-    if constexpr (decltype(modes)::value == 1)
-      pressure_change_layer<decltype(law)>(cells, fields, step, change, layer);
+  with_unknowns(cells, [&](auto law, auto unknowns) {
+    constexpr Internal internal = decltype(unknowns)::internal;
+    if constexpr (internal != Internal::none)
+      internal_change_layer<decltype(law), internal>(cells, fields, step, change, layer);
   });
 }
 
 void tangent(const Cells& cells, const TangentFields& fields, const Coarsening& coarsening, int layer) {
-  with_modes(cells, [&](auto law, auto modes) {
-    tangent_layer<decltype(law), decltype(modes)::value == 1>(cells, fields, coarsening, layer);
+  with_unknowns(cells, [&](auto law, auto unknowns) {
+    tangent_layer<decltype(law), decltype(unknowns)::internal>(cells, fields, coarsening, layer);
   });
 }

@@ -91,13 +91,7 @@ void quadratic_force_layer(const Quadratic& elements, const ForceFields& fields,
         quadratic_gradient(elements, q, u, h);
         const PackD dilatation = dilatation_of<L>(h);
         lowest = dilatation > lowest ? lowest : dilatation; // keeps what is not a number
-        L::stress(h, m, stress);
-        if constexpr (L::has_pressure) {
-          PackD area[9];
-          cofactor_of<L>(h, area);
-          const PackD pressure = L::pressure(dilatation, m).value;
-          for (int e = 0; e < 9; ++e) stress[e] += pressure * area[e];
-        }
+        stress_of<L>(h, m, stress);
         const PackD scale = weight * elements.weights[q];
         for (int e = 0; e < 9; ++e) stress[e] *= scale;
         add_quadratic_divergence(elements, q, stress, force);

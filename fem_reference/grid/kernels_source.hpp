@@ -19,13 +19,17 @@ struct Count {
 
 #include "fem_reference/grid/kernels_stencil.hpp"
 
+#include "fem_reference/grid/kernels_points.hpp"
+
+#include "fem_reference/grid/kernels_bubbles.hpp"
+
 #include "fem_reference/grid/kernels_cells.hpp"
 
 #include "fem_reference/grid/kernels_quadratic.hpp"
 
 } // namespace
 
-const Kernels SPRINGPROOF_ISA::kernels{force,           pressure_change,       tangent,
+const Kernels SPRINGPROOF_ISA::kernels{force,           internal_change,       tangent,
                                        deposit_layer,   product_plane<double>, product_plane<float>,
                                        quadratic_force, quadratic_moduli,      quadratic_product,
                                        mass_layer};

@@ -44,7 +44,7 @@ mechanics::ElasticModuli moduli_at_rest(const cases::Material& material) {
 bool is_on_grid(const cases::Scene& scene) {
   const cases::Fem& fem = scene.definition.fem;
   if (!scene.mesh.grid) return false;
-  if (fem.element == cases::Element::q2_p1 || fem.element == cases::Element::q1_wilson) return false;
+  if (fem.element == cases::Element::q2_p1) return false;
   if (scene.definition.dynamics && fem.element == cases::Element::q2) return false; // has no masses there
   std::size_t n_parameters = 0;
   for (const cases::Material& material : cases::materials_of(scene.definition)) {
@@ -56,8 +56,8 @@ bool is_on_grid(const cases::Scene& scene) {
     if (n > 1 + 2 * most_terms || (n_parameters > 0 && n != n_parameters)) return false;
     n_parameters = n;
   }
-  return fem.formulation != cases::Formulation::saint_venant_kirchhoff || fem.element == cases::Element::q1 ||
-         fem.element == cases::Element::q2;
+  return fem.formulation != cases::Formulation::saint_venant_kirchhoff ||
+         (fem.element != cases::Element::q1_bbar && fem.element != cases::Element::q1_p0);
 }
 
 double bulk_over_shear(const cases::Scene& scene) {

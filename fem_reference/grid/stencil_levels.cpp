@@ -131,24 +131,24 @@ class StencilLevels::StencilLevel : public mechanics::grid::Level {
 
   /// Adds the tangent of the body, with its inertia, and its cells' matrices on the coarser grid.
   void add_tangent() {
-    const auto add = [&](const Cells& cells, const double* displacement, const double* pressure,
+    const auto add = [&](const Cells& cells, const double* displacement, const double* internal,
                          const Masses* masses) {
-      const TangentFields fields{displacement,         pressure, body_.free.data(), stencil_.data(),
+      const TangentFields fields{displacement,         internal, body_.free.data(), stencil_.data(),
                                  next_cell_matrices(), masses};
       for_each_layer(space_.slab, n_threads_,
                      [&](int k) { kernels().tangent(cells, fields, coarsening_, k); });
     };
     const Inertia* const inertia = state_.inertia;
     const Masses masses = inertia ? inertia->step_masses() : Masses{};
-    add(body_.view(), state_.displacement, state_.pressure, inertia ? &masses : nullptr);
+    add(body_.view(), state_.displacement, state_.internal, inertia ? &masses : nullptr);
     node_masses_.resize(0);
     if (!inertia) return;
     if (inertia->step_node_masses().size() > 0)
       node_masses_ = inertia->step_node_masses().cwiseProduct(body_.free.cast<double>());
     if (const auto damping = inertia->step_damping()) { // the damping body's tangent at rest
       const Field<double> rest = Field<double>::Zero(3 * layout().size);
-      const std::vector<double> no_pressure(index(layout().n_cell_entries()) + 16, 0.);
-      add(*damping, rest.data(), no_pressure.data(), nullptr);
+      const std::vector<double> internal(index(body_.n_internal()), 0.);
+      add(*damping, rest.data(), internal.data(), nullptr);
     }
   }
 
@@ -210,8 +210,8 @@ StencilLevels::StencilLevels(const Body& body, int n_threads, const mechanics::g
   }
 }
 
-void StencilLevels::linearise(const double* displacement, const double* pressure, const Inertia* inertia) {
-  state_ = {displacement, pressure, inertia};
+void StencilLevels::linearise(const double* displacement, const double* internal, const Inertia* inertia) {
+  state_ = {displacement, internal, inertia};
   cycle_.linearise();
 }
 

@@ -16,7 +16,7 @@ class StencilLevels {
 
   /// Assembles the tangent at a state and prepares the cycle.
   /// @param inertia  its matrix is added; or null
-  void linearise(const double* displacement, const double* pressure, const Inertia* inertia = nullptr);
+  void linearise(const double* displacement, const double* internal, const Inertia* inertia = nullptr);
 
   /// Drops what a state far off may have left.
   void forget() { cycle_.forget(); }
@@ -36,7 +36,7 @@ class StencilLevels {
  private:
   class StencilLevel;
   struct State {
-    const double *displacement, *pressure;
+    const double *displacement, *internal;
     const Inertia* inertia; ///< or null
   };
   const Body& body_;
