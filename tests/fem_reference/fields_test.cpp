@@ -122,7 +122,8 @@ TEST_CASE("the reaction of a clamped face is the applied load, on every backend,
           "[verification]") {
   const Vector3d value(0.004, -0.001, 0.003);
   for (const auto backend : {Backend::assembled, Backend::grid})
-    for (const auto element : {Element::q1, Element::q1_bbar, Element::q2, Element::q2_p1})
+    for (const auto element :
+         {Element::q1, Element::q1_bbar, Element::q1_wilson, Element::q2, Element::q2_p1})
       for (const int refine : {0, 1}) {
         if (backend == Backend::grid && element == Element::q2_p1) continue;
         if (refine == 1 && (element == Element::q2 || element == Element::q2_p1)) continue; // seconds
@@ -161,7 +162,7 @@ TEST_CASE("at half the load of a model solved again the reaction is half of the 
 }
 
 TEST_CASE("the strain energy of small strains is half the work of the load", "[verification]") {
-  for (const auto element : {Element::q1, Element::q1_bbar}) {
+  for (const auto element : {Element::q1, Element::q1_bbar, Element::q1_wilson}) {
     const cases::Scene scene =
         cases::make_scene(block(cases::Formulation::small_strain, element, {0.004, -0.001, 0.003}));
     Model model(scene, MPI_COMM_SELF);

@@ -27,6 +27,7 @@ TEST_CASE("two ranks and one find the same displacement and cell volumes", "[.][
                                  Combination{Formulation::small_strain, Element::q1_bbar, 10},
                                  Combination{Formulation::saint_venant_kirchhoff, Element::q2, 3},
                                  Combination{Formulation::log_strain, Element::q1_bbar, 4},
+                                 Combination{Formulation::log_strain, Element::q1_wilson, 4},
                                  Combination{Formulation::hyperelastic, Element::q1_p0, 4},
                                  Combination{Formulation::hyperelastic, Element::q2_p1, 2});
   cases::Material material = scenes::thesis_elastic();
@@ -62,6 +63,7 @@ std::vector<cases::Scene> scenes_for_ranks() {
                             std::array<int, 3>{16, 16, 7}, std::array<int, 3>{20, 20, 2}})
     scenes.push_back(cases::make_scene(small_block({10, 10, 10}, cells)));
   scenes.push_back(cases::make_scene(small_block({10, 10, 10}, {4, 4, 9}, cases::Element::q2)));
+  scenes.push_back(cases::make_scene(small_block({10, 10, 10}, {8, 7, 13}, cases::Element::q1_wilson)));
 
   auto refined = small_block({10, 10, 10}, {4, 5, 7});
   cases::RegionMaterial stiff;
@@ -177,6 +179,12 @@ std::vector<cases::Scene> motions_for_ranks() {
   definition.dynamics->start = cases::MotionStart::equilibrium;
   definition.loads.front().history.points = {{0., 1.}, {0., 0.3}};
   add();
+
+  for (const auto formulation : {cases::Formulation::small_strain, cases::Formulation::log_strain}) {
+    make({8, 7, 13}, formulation, Element::q1_wilson, cases::Scheme::generalized_alpha);
+    definition.material_dynamics = {1000., 5, 0.002};
+    add();
+  }
 
   make({8, 8, 11}, cases::Formulation::log_strain, Element::q1_bbar, cases::Scheme::implicit_euler);
   definition.fixed.clear();

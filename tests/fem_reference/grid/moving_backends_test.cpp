@@ -54,8 +54,10 @@ TEST_CASE("both backends move alike, whatever the law, the element, the mass, th
   int n = 0;
   for (const auto formulation : {cases::Formulation::small_strain, cases::Formulation::saint_venant_kirchhoff,
                                  cases::Formulation::log_strain, cases::Formulation::hyperelastic})
-    for (const auto element : {Element::q1, Element::q1_bbar, Element::q1_p0}) {
-      if (formulation == cases::Formulation::saint_venant_kirchhoff && element != Element::q1) continue;
+    for (const auto element : {Element::q1, Element::q1_bbar, Element::q1_p0, Element::q1_wilson}) {
+      if (formulation == cases::Formulation::saint_venant_kirchhoff &&
+          (element == Element::q1_bbar || element == Element::q1_p0))
+        continue;
       cases::Case definition = block(formulation, element);
       const auto scheme = static_cast<cases::Scheme>(n % 4);
       definition.dynamics->scheme.scheme = scheme;
@@ -69,7 +71,7 @@ TEST_CASE("both backends move alike, whatever the law, the element, the mass, th
 
 TEST_CASE("both backends move alike with several materials, weights, histories and starts in equilibrium",
           "[verification][long]") {
-  for (const auto element : {Element::q1, Element::q1_bbar}) {
+  for (const auto element : {Element::q1, Element::q1_bbar, Element::q1_wilson}) {
     CAPTURE(cases::name_of(element));
     cases::Case definition = block(cases::Formulation::log_strain, element);
     definition.material_dynamics = {1000., 2, 0.001};
@@ -92,7 +94,7 @@ TEST_CASE("both backends move alike with several materials, weights, histories a
 }
 
 TEST_CASE("both backends move alike where supports move", "[verification]") {
-  for (const auto element : {Element::q1, Element::q1_bbar}) {
+  for (const auto element : {Element::q1, Element::q1_bbar, Element::q1_wilson}) {
     CAPTURE(cases::name_of(element));
     cases::Case definition = block(cases::Formulation::log_strain, element);
     definition.material_dynamics = {1000., 2, 0.001};
