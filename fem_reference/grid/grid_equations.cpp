@@ -195,6 +195,8 @@ std::optional<Field<double>> GridEquations::solve(const Field<double>& right_sid
 bool GridEquations::direction(const Vector& at, const Vector&, double, double forcing, mechanics::Convexity,
                               Vector& step) {
   const double imbalance = norm(space_, condensed_);
+  has_failed_ = !std::isfinite(imbalance); // the bubbles of some cell have a singular stiffness
+  if (has_failed_) return false;
   if (!may_keep_tangent(imbalance)) {
     linearise(at);
   } else if (!is_linear_) {
