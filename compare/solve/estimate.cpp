@@ -31,6 +31,7 @@ struct Factorised { ///< factorised at every iteration: what 26,460 unknowns tak
   double least_megabytes, megabytes, seconds;
 };
 constexpr Linear grid_linear_element{5, 750, 10e-6};
+constexpr Linear grid_bubble_element{5, 950, 20e-6};
 constexpr Linear grid_quadratic_element{5, 1250, 25e-6};
 constexpr Linear grid_springs{5, 320, 5.5e-6};
 constexpr Linear algebraic_multigrid{25, 4000, 115e-6};
@@ -43,11 +44,16 @@ constexpr double memory_power = 1.25, time_power = 1.7;
 
 /// Bytes of finite elements in motion beside those of statics, by their types, per entry of a field and per
 /// unknown: 14 vectors of the integrator, masses and dampers, which are matrices where tangents are
-/// assembled.
-constexpr double grid_in_motion = 150, assembled_in_motion = 2400;
+/// assembled. Bubbles are three times as many numbers as displacements.
+constexpr double grid_in_motion = 150, grid_bubbles_in_motion = 490, assembled_in_motion = 2400;
 
 /// Parts of the time of finite strain: one factorisation for four or five, three inexact solves for five.
 constexpr double small_strain_factorised = 0.2, small_strain_iterated = 0.6;
+
+const Linear& on_grid(cases::Element element) {
+  if (element == cases::Element::q1_wilson) return grid_bubble_element;
+  return element == cases::Element::q2 ? grid_quadratic_element : grid_linear_element;
+}
 
 Estimate linear(const std::string& model, double unknowns, double n_entries, const Linear& per) {
   return {model, unknowns, per.megabytes + 1e-6 * per.bytes * n_entries, per.seconds * unknowns};
@@ -155,14 +161,16 @@ Estimate estimate_fem(const BodySize& body) {
   const double n_entries = is_on_grid ? element_entries(nodes_along(body, halvings)) : unknowns;
   Estimate estimate;
   if (is_on_grid)
-    estimate = linear("finite elements (matrix-free)", unknowns, n_entries,
-                      fem.element == cases::Element::q2 ? grid_quadratic_element : grid_linear_element);
+    estimate = linear("finite elements (matrix-free)", unknowns, n_entries, on_grid(fem.element));
   else if (is_factorised)
     estimate = factorised("finite elements (factorised)", unknowns, finite_elements);
   else
     estimate = linear("finite elements (assembled)", unknowns, n_entries, algebraic_multigrid);
   if (body.outline.definition.dynamics)
-    estimate.megabytes += 1e-6 * n_entries * (is_on_grid ? grid_in_motion : assembled_in_motion);
+    estimate.megabytes += 1e-6 * n_entries *
+                          (!is_on_grid                                ? assembled_in_motion
+                           : fem.element == cases::Element::q1_wilson ? grid_bubbles_in_motion
+                                                                      : grid_in_motion);
   if (fem.formulation == cases::Formulation::small_strain)
     estimate.seconds *= is_factorised ? small_strain_factorised : small_strain_iterated;
   return in_time(estimate, body.outline.definition);

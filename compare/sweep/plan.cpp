@@ -20,7 +20,7 @@ namespace {
 using cases::Element;
 using cases::Formulation;
 
-constexpr std::array<Element, 3> elements{Element::q1, Element::q1_bbar, Element::q2};
+constexpr std::array<Element, 4> elements{Element::q1, Element::q1_bbar, Element::q1_wilson, Element::q2};
 constexpr double tight = 1e-9;
 constexpr std::array<double, 3> tolerances{1e-2, 1e-4, tight};
 

@@ -102,6 +102,23 @@ void plot_errors(const std::string& folder, const ErrorPlot& plot) {
   draw(folder, plot.name, "sweep", values_of(plot));
 }
 
+#pragma GCC diagnostic error "-Wswitch" // an element without its marker must not compile
+int marker_of(cases::Element element) {
+  switch (element) {
+  case cases::Element::q1:
+    return 4;
+  case cases::Element::q1_bbar:
+  case cases::Element::q1_p0: // the same on a grid's cells
+    return 6;
+  case cases::Element::q1_wilson:
+    return 8;
+  case cases::Element::q2:
+  case cases::Element::q2_p1:
+    break;
+  }
+  return 12;
+}
+
 /// Springs have the linetypes 2 to 6, 9 and 8, a colour each; designs of others the thin grey lines of 10
 /// with a marker each. The finite elements have linetype 1 (small strain, and every motion), 7 (finite
 /// strain) and 8 (CalculiX), an element its marker.
@@ -114,8 +131,7 @@ Appearance appearance(const Variant& v, int number) {
   if (v.program == Program::springs) return {ours.at(cases::index(number) % ours.size())};
   if (v.step > 0) return {1};
   if (v.program == Program::calculix) return {8, 1 + static_cast<int>(v.formulation)};
-  const int marker = v.element == cases::Element::q1 ? 4 : v.element == cases::Element::q1_bbar ? 6 : 12;
-  return {v.formulation == cases::Formulation::small_strain ? 1 : 7, marker};
+  return {v.formulation == cases::Formulation::small_strain ? 1 : 7, marker_of(v.element)};
 }
 
 /// The points of every method: joined are those that all methods have, of the tightest tolerance, or with the

@@ -139,7 +139,8 @@ struct Plan {
 };
 
 /// The plan for a case: every spring design at every level and tolerance, small- and finite-strain finite
-/// elements (q1, q1_bbar, q2) and CalculiX as far as their unknowns allow, on levels_of() its body.
+/// elements (q1, q1_bbar, q1_wilson, q2) and CalculiX as far as their unknowns allow, on levels_of() its
+/// body.
 /// @throws InputError for a body that is no box or a material without small strain
 Plan plan_sweep(const cases::Case& definition, Extent extent);
 

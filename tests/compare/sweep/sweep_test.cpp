@@ -72,8 +72,9 @@ TEST_CASE("every plan has the designs, both strains and the elements, and says w
   for (const char* design :
        {"linear_method", "nonlinear_method", "moduli", "hybrid", "matched", "multi_load"})
     CHECK(count(std::string("springs ") + design) == 4 * 3); // levels, tolerances
-  for (const char* method : {"small_strain q1", "small_strain q1_bbar", "small_strain q2", "log_strain q1",
-                             "log_strain q1_bbar", "log_strain q2", "CalculiX small_strain q1"})
+  for (const char* method : {"small_strain q1", "small_strain q1_bbar", "small_strain q1_wilson",
+                             "small_strain q2", "log_strain q1", "log_strain q1_bbar", "log_strain q1_wilson",
+                             "log_strain q2", "CalculiX small_strain q1"})
     CHECK(count(method) >= 2);
   REQUIRE(full.reference.size() == 3);
   for (std::size_t r = 0; r < full.reference.size(); ++r)
