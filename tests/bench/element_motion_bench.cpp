@@ -85,6 +85,12 @@ BENCHMARK_CAPTURE(elements, log_strain_q1_bbar, cases::Formulation::log_strain, 
     ->Unit(benchmark::kMillisecond)
     ->Iterations(1)
     ->UseManualTime();
+BENCHMARK_CAPTURE(elements, log_strain_q1_wilson, cases::Formulation::log_strain, cases::Element::q1_wilson)
+    ->ArgNames({"cells", "threads", "step_ms", "tolerance"})
+    ->ArgsProduct({{40}, {1}, {1, 20}, {3}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1)
+    ->UseManualTime();
 BENCHMARK_CAPTURE(elements, small_strain_q1, cases::Formulation::small_strain, cases::Element::q1)
     ->ArgNames({"cells", "threads", "step_ms", "tolerance"})
     ->ArgsProduct({{40}, {1}, {20}, {3}})
