@@ -86,7 +86,7 @@ class GridEquations : public ElementEquations {
       condensed_; ///< force with the imbalance of the cells' unknowns in the state last evaluated, N
   std::vector<double> gap_;     ///< gaps of the moved entries there, mm
   double reaction_ = 0, volume_mismatch_ = 0;
-  std::vector<double> bubble_imbalance_; ///< squared, of the layers of cells, N²
+  std::vector<double> bubble_imbalance_; ///< squared forces on the bubbles of each layer of cells, N²
   bool is_valid_ = false, has_failed_ = false;
 
   bool add_force(const Vector& at, Field<double>& force);

@@ -38,7 +38,7 @@ SPRINGPROOF_INLINE void add_own(const Cells& cells, int q, const P (&moduli)[M::
     }
 }
 
-/// Which way forces are taken between corners and bubbles.
+/// Forces on corners by bubbles, or on bubbles by corners.
 enum class Coupling { on_corners, on_bubbles };
 
 /// coupling[corner][component][bubble's component] += grad N . moduli . gradient of the bubble
