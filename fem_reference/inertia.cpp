@@ -1,6 +1,7 @@
 #include "fem_reference/inertia.hpp"
 
 #include "cases/scene/loads.hpp"
+#include "mechanics/shape_products.hpp"
 
 namespace springproof::fem_reference {
 
@@ -12,13 +13,9 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 /// Integral of density N_a N_b over a cell; lumped, its sums of rows on the diagonal, which are positive for
 /// trilinear and triquadratic elements.
 Eigen::MatrixXd node_masses(const Discretisation& d, int cell, double density, cases::ElementMass kind) {
-  const int n = d.nodes.per_cell;
-  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n);
-  const double* weights = d.geometry.of(cell).weights;
-  for (int q = 0; q < d.geometry.n_points; ++q) {
-    const Eigen::Map<const Eigen::VectorXd> shape(d.geometry.shape_values.data() + q * n, n);
-    mass += density * weights[q] * shape * shape.transpose();
-  }
+  Eigen::MatrixXd mass =
+      mechanics::shape_products(d.nodes.per_cell, d.geometry.n_points, d.geometry.shape_values.data(),
+                                d.geometry.of(cell).weights, density);
   if (kind == cases::ElementMass::lumped) mass = Eigen::MatrixXd(mass.rowwise().sum().asDiagonal());
   return mass;
 }

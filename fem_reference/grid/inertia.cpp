@@ -80,21 +80,12 @@ bool Inertia::set_step(const Factors& factors) {
   return true;
 }
 
-Masses Inertia::step_masses() const {
-  return in_parts(step_masses_);
+Masses<double> Inertia::step_masses() const {
+  return of_kind(step_masses_);
 }
 
-Masses Inertia::in_parts(const std::vector<double>& masses) const {
-  Masses result{masses.data(), {}};
-  for (int a = 0; a < 8; ++a)
-    for (int b = 0; b < 8; ++b) {
-      double& part = result.part[a][b];
-      part = a == b ? 1. / 8 : 0;
-      if (is_lumped_) continue;
-      part = 1; // along each axis [2 1; 1 2]/6 of it
-      for (int axis = 0; axis < 3; ++axis) part /= ((a ^ b) >> axis & 1) == 0 ? 3 : 6;
-    }
-  return result;
+Masses<double> Inertia::of_kind(const std::vector<double>& masses) const {
+  return {masses.data(), is_lumped_ ? 0. : 1., is_lumped_ ? 1. : 0.};
 }
 
 std::optional<Cells> Inertia::step_damping() const {
@@ -110,7 +101,7 @@ Cells Inertia::damping_view(double factor) const {
 
 void Inertia::add_product(const Factors& factors, const Field<double>& field, Field<double>& product) {
   factor(factors, factored_);
-  const Masses masses = in_parts(factored_);
+  const Masses<double> masses = of_kind(factored_);
   for_each_layer(body_.slab, n_threads_,
                  [&](int k) { kernels().mass(body_.layout, masses, field.data(), product.data(), k); });
   if (node_mass_.size() > 0) product += factors.mass * node_mass_.cwiseProduct(field);

@@ -29,7 +29,7 @@ class Inertia {
   void add_step_product(const Field<double>& field, Field<double>& product) {
     add_product(step_, field, product);
   }
-  Masses step_masses() const; ///< the cells'; points into this
+  Masses<double> step_masses() const; ///< the cells'; points into this
   const Field<double>& step_node_masses() const { return step_node_masses_; } ///< [[mass]]; empty: none
   /// A linear body whose tangent is the step's multiple of K(rest); nothing where there is none.
   std::optional<Cells> step_damping() const;
@@ -47,7 +47,8 @@ class Inertia {
   Field<double> force_, condensed_; ///< the damping body's
 
   void factor(const Factors& factors, std::vector<double>& masses) const;
-  Masses in_parts(const std::vector<double>& masses) const;
+  /// Masses of cells with the weights of fem.mass.
+  Masses<double> of_kind(const std::vector<double>& masses) const;
   Cells damping_view(double factor) const;
   void make_damping_body(const cases::Scene& scene, const Places& places);
 };

@@ -3,6 +3,7 @@
 #include "fem_reference/grid/laws.hpp"
 #include "mechanics/grid/instruction_set.hpp"
 #include "mechanics/grid/layout.hpp"
+#include "mechanics/grid/masses.hpp"
 
 #include <cstddef>
 
@@ -12,6 +13,7 @@
 namespace springproof::fem_reference::grid {
 
 using mechanics::grid::Layout;
+using mechanics::grid::Masses;
 
 /// A matrix of 3x3 blocks between each node and its 27 neighbours: for every row of nodes (j, k) the entries
 /// [(9*neighbour + 3*c + d)][i], neighbour = (dx+1) + 3(dy+1) + 9(dz+1). Rows begin stencil_row(layout)
@@ -60,16 +62,10 @@ struct Quadratic {
   double weights[27];          ///< the Gauss points', mm³
 };
 
-/// Masses of trilinear elements, or any multiple of them.
-struct Masses {
-  const double* of_cell; ///< per cell, 16 entries more than there are; 0 where there is none
-  double part[8][8];     ///< shares of the cell's mass between its corners: symmetric, in sum 1
-};
-
 /// Results of a layer of cells.
 struct Checks {
-  bool valid = true;          ///< false: J <= 0 or not a number at a Gauss point of some cell
-  double volume_mismatch = 0; ///< the largest that a cell's pressure leaves, relative
+  bool valid = true;           ///< false: J <= 0 or not a number at a Gauss point of some cell
+  double volume_mismatch = 0;  ///< the largest that a cell's pressure leaves, relative
   double bubble_imbalance = 0; ///< sum of the squared forces on bubbles, N²
 };
 
@@ -84,10 +80,10 @@ struct ForceFields {
 struct TangentFields {
   const double* displacement;
   const double* internal;
-  const float* free;              ///< field: 0 where constrained, else 1; null when there is no coarser level
-  float* stencil;                 ///< added to
-  float* coarse;                  ///< added to: cell matrices of the coarser grid; or null
-  const Masses* masses = nullptr; ///< added to the cells' matrices, t/s²; or null
+  const float* free; ///< field: 0 where constrained, else 1; null when there is no coarser level
+  float* stencil;    ///< added to
+  float* coarse;     ///< added to: cell matrices of the coarser grid; or null
+  const Masses<double>* masses = nullptr; ///< added to the cells' matrices, t/s²; or null
 };
 
 /// A grid in cells twice as large along some axes.
@@ -122,7 +118,7 @@ struct Kernels {
   void (*quadratic_product)(const Quadratic&, const float* moduli, const double* field, double* product,
                             int layer);
   /// Adds the masses' product with a field to the planes k and k + 1 of nodes.
-  void (*mass)(const Layout&, const Masses&, const double* field, double* product, int layer);
+  void (*mass)(const Layout&, const Masses<double>&, const double* field, double* product, int layer);
 };
 
 SPRINGPROOF_KERNEL_SETS(Kernels, kernels)

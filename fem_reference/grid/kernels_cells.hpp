@@ -1,4 +1,4 @@
-// Part of kernels_source.hpp, in its namespace: forces, tangents and masses of layers of cells.
+// Part of kernels_source.hpp, in its namespace: forces and tangents of layers of cells.
 #pragma once
 
 template<class L, Internal internal>
@@ -217,12 +217,15 @@ SPRINGPROOF_INLINE void condense(BubbleStiffness<PackF>& stiffness, const PackF 
 }
 
 template<class K>
-SPRINGPROOF_INLINE void add_masses(const Masses& masses, std::ptrdiff_t cell, K& matrix) {
+SPRINGPROOF_INLINE void add_masses(const Masses<double>& masses, std::ptrdiff_t cell, K& matrix) {
   const PackF mass = narrow(load(masses.of_cell + cell), load(masses.of_cell + cell + pack_size<double>));
   for (int a = 0; a < 8; ++a)
-    for (int b = K::is_symmetric ? a : 0; b < 8; ++b)
+    for (int b = K::is_symmetric ? a : 0; b < 8; ++b) {
+      const double consistent = (8 >> __builtin_popcount(static_cast<unsigned>(a ^ b))) / 216.;
+      const double part = masses.consistent * consistent + (a == b ? masses.lumped / 8 : 0);
       for (int i = 0; i < 3; ++i)
-        matrix.entry[K::at(3 * a + i, 3 * b + i)] += mass * static_cast<float>(masses.part[a][b]);
+        matrix.entry[K::at(3 * a + i, 3 * b + i)] += mass * static_cast<float>(part);
+    }
 }
 
 template<class L, Internal internal>
@@ -289,28 +292,6 @@ void tangent_layer(const Cells& cells, const TangentFields& fields, const Coarse
           symmetric[upper(r, t)] = (matrix.entry[K::at(r, t)] + matrix.entry[K::at(t, r)]) / 2;
       constrain(layout, fields.free, node, symmetric);
       add_to_coarse(symmetric, fields.coarse, coarsening, i, j, k);
-    }
-}
-
-/// product += mass * field, cell by cell.
-void mass_layer(const Layout& layout, const Masses& masses, const double* field, double* product, int k) {
-  for (int j = 0; j < layout.nodes[1] - 1; ++j)
-    for (int i = 0; i < layout.nodes[0] - 1; i += pack_size<double>) {
-      const std::ptrdiff_t cell = layout.cell(i, j, k), node = layout.at(i, j, k);
-      const PackD mass = load(masses.of_cell + cell);
-      for (int c = 0; c < 3; ++c) {
-        const std::ptrdiff_t first = c * layout.size + node;
-        PackD value[8];
-        for (int a = 0; a < 8; ++a) {
-          value[a] = load(field + first + corner_of(layout, a));
-          value[a] = mass > PackD{} ? value[a] : PackD{};
-        }
-        for (int a = 0; a < 8; ++a) {
-          PackD sum{};
-          for (int b = 0; b < 8; ++b) sum += value[b] * masses.part[a][b];
-          add(product + first + corner_of(layout, a), mass * sum);
-        }
-      }
     }
 }
 

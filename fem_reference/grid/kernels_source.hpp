@@ -23,6 +23,8 @@ struct Count {
 
 #include "fem_reference/grid/kernels_bubbles.hpp"
 
+#include "mechanics/grid/kernels_masses.hpp"
+
 #include "fem_reference/grid/kernels_cells.hpp"
 
 #include "fem_reference/grid/kernels_quadratic.hpp"
@@ -32,6 +34,6 @@ struct Count {
 const Kernels SPRINGPROOF_ISA::kernels{force,           internal_change,       tangent,
                                        deposit_layer,   product_plane<double>, product_plane<float>,
                                        quadratic_force, quadratic_moduli,      quadratic_product,
-                                       mass_layer};
+                                       mass_layer<double>};
 
 } // namespace springproof::fem_reference::grid

@@ -101,13 +101,10 @@ void for_each_plane(const Slab::Range& planes, int n_threads, const Action& acti
   mechanics::grid::for_each_plane(planes.begin, planes.end, n_threads, action);
 }
 
-/// Calls action(layer) for the layers of cells held, first the even ones of the grid and then the odd ones:
-/// those add to different planes of nodes, and always in the same order.
+/// Calls action(layer) for the layers of cells held.
 template<class Action>
 void for_each_layer(const Slab& slab, int n_threads, const Action& action) {
-  const int n = slab.n_layers(), first_even = slab.first_of_grid() % 2;
-  for (int first : {first_even, 1 - first_even})
-    for_each_plane({0, (n - first + 1) / 2}, n_threads, [&](int half) { action(2 * half + first); });
+  mechanics::grid::for_each_layer(slab.n_layers(), slab.first_of_grid(), n_threads, action);
 }
 
 /// Calls kernel(layer, its checks) for the layers of cells held, as for_each_layer().  @return all checks

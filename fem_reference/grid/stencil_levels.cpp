@@ -132,14 +132,14 @@ class StencilLevels::StencilLevel : public mechanics::grid::Level {
   /// Adds the tangent of the body, with its inertia, and its cells' matrices on the coarser grid.
   void add_tangent() {
     const auto add = [&](const Cells& cells, const double* displacement, const double* internal,
-                         const Masses* masses) {
+                         const Masses<double>* masses) {
       const TangentFields fields{displacement,         internal, body_.free.data(), stencil_.data(),
                                  next_cell_matrices(), masses};
       for_each_layer(space_.slab, n_threads_,
                      [&](int k) { kernels().tangent(cells, fields, coarsening_, k); });
     };
     const Inertia* const inertia = state_.inertia;
-    const Masses masses = inertia ? inertia->step_masses() : Masses{};
+    const Masses<double> masses = inertia ? inertia->step_masses() : Masses<double>{};
     add(body_.view(), state_.displacement, state_.internal, inertia ? &masses : nullptr);
     node_masses_.resize(0);
     if (!inertia) return;

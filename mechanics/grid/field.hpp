@@ -81,6 +81,16 @@ void for_each_plane(const Layout& layout, int n_threads, const Action& action) {
   for_each_plane(0, layout.nodes[2], layout.size <= piece ? 1 : n_threads, action);
 }
 
+/// Calls action(layer) for n layers of cells, first the even ones of the grid and then the odd ones: those
+/// add to different planes of nodes, and always in the same order.
+/// @param first  number in the grid of the first layer
+template<class Action>
+void for_each_layer(int n, int first, int n_threads, const Action& action) {
+  const int first_even = first % 2;
+  for (int begin : {first_even, 1 - first_even})
+    for_each_plane(0, (n - begin + 1) / 2, n_threads, [&](int half) { action(2 * half + begin); });
+}
+
 /// a += factor * b
 template<class Real>
 void add(Field<Real>& a, Real factor, const Field<Real>& b, int n_threads) {

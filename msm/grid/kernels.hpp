@@ -2,6 +2,7 @@
 
 #include "mechanics/grid/instruction_set.hpp"
 #include "mechanics/grid/layout.hpp"
+#include "mechanics/grid/masses.hpp"
 #include "msm/spring_laws.hpp"
 
 #include <cstddef>
@@ -108,6 +109,9 @@ struct Kernels {
   double (*energy)(const Springs<Real>&, int first, int last, const Real* displacement);
   /// Orders the stiffnesses by_node as springs are swept: a block of 13 for every pack, row by row.
   void (*pack_stiffness)(const Springs<Real>&, Real* to, unsigned char* use);
+  /// Adds the masses' product with a field to the planes k and k + 1 of nodes.
+  void (*mass)(const Layout&, const mechanics::grid::Masses<Real>&, const Real* field, Real* product,
+               int layer);
   int pack; ///< numbers computed at once
 };
 

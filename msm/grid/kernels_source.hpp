@@ -20,6 +20,8 @@ namespace {
 
 #include "msm/grid/kernels_substitution.hpp"
 
+#include "mechanics/grid/kernels_masses.hpp"
+
 // ---- the four kernels ------------------------------------------------------------------------------------
 
 template<class Real>
@@ -178,8 +180,8 @@ void diagonal(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const
 }
 
 template<class Real>
-constexpr Kernels<Real> all{force<Real>,  product<Real>,        diagonal<Real>,
-                            energy<Real>, pack_stiffness<Real>, pack_size<Real>};
+constexpr Kernels<Real> all{force<Real>,          product<Real>,    diagonal<Real>, energy<Real>,
+                            pack_stiffness<Real>, mass_layer<Real>, pack_size<Real>};
 
 } // namespace
 
