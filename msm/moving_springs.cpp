@@ -2,6 +2,7 @@
 
 #include "cases/mesh/hex_mesh.hpp"
 #include "cases/scene/loads.hpp"
+#include "mechanics/shape_products.hpp"
 #include "msm/tangent.hpp"
 
 #include <Eigen/LU>
@@ -19,13 +20,47 @@ bool is_damped(const cases::Scene& scene) {
                      [](const auto& region) { return region.dynamics.stiffness_damping > 0; });
 }
 
+bool is_consistent(const cases::Scene& scene) {
+  return scene.definition.msm.mass == cases::PointMass::consistent;
+}
+
+/// Each cell's mass, t.
+std::vector<double> cell_masses(const cases::Scene& scene) {
+  std::vector<double> masses;
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
+    masses.push_back(cases::dynamics_of(scene, c).density *
+                     cases::cell_volume(cases::cell_vertices(scene.mesh, c)));
+  return masses;
+}
+
 } // namespace
+
+std::vector<Eigen::Triplet<double>> masses_beyond_lumped(const cases::HexMesh& mesh,
+                                                         const std::vector<double>& cell_mass) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t c = 0; c < cell_mass.size(); ++c) {
+    const auto vertices = cases::cell_vertices(mesh, c);
+    Eigen::MatrixXd masses = mechanics::shape_products(vertices, cell_mass[c] / cases::cell_volume(vertices));
+    masses.diagonal().array() -= cell_mass[c] / 8;
+    const std::array<int, 8>& nodes = mesh.cells[c];
+    for (int a = 0; a < 8; ++a)
+      for (int b = 0; b < 8; ++b)
+        for (int i = 0; i < 3; ++i)
+          entries.emplace_back(3 * nodes[cases::index(a)] + i, 3 * nodes[cases::index(b)] + i, masses(a, b));
+  }
+  return entries;
+}
 
 Inertia make_inertia(const cases::Scene& scene, Lattice damping) {
   Inertia inertia;
   inertia.mass = cases::point_masses(scene);
   inertia.mass_damping = cases::point_mass_damping(scene);
   inertia.damping = std::move(damping);
+  if (is_consistent(scene)) {
+    inertia.cell_mass = cell_masses(scene);
+    for (std::size_t c = 0; c < inertia.cell_mass.size(); ++c)
+      inertia.cell_mass_damping.push_back(cases::dynamics_of(scene, c).mass_damping * inertia.cell_mass[c]);
+  }
   for (const auto& applied : scene.loads) {
     std::vector<cases::NodeVector> force =
         applied.load.on() == cases::loads::On::masses
@@ -49,14 +84,19 @@ mechanics::VibratingBody vibrating_body(const cases::Scene& scene, const Lattice
   const std::vector<double> masses = cases::point_masses(scene);
   const std::vector<int>& number = tangent.free_number();
   body.mesh_dof.resize(cases::index(tangent.n_free()));
-  std::vector<Eigen::Triplet<double>> diagonal;
+  std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t dof = 0; dof < number.size(); ++dof) {
     if (number[dof] < 0) continue;
-    diagonal.emplace_back(number[dof], number[dof], masses[dof / 3]);
+    entries.emplace_back(number[dof], number[dof], masses[dof / 3]);
     body.mesh_dof[cases::index(number[dof])] = static_cast<Eigen::Index>(dof);
   }
+  if (is_consistent(scene))
+    for (const auto& joined : masses_beyond_lumped(scene.mesh, cell_masses(scene)))
+      if (const int row = number[cases::index(joined.row())], column = number[cases::index(joined.col())];
+          row >= 0 && column >= 0)
+        entries.emplace_back(row, column, joined.value());
   body.mass.resize(tangent.n_free(), tangent.n_free());
-  body.mass.setFromTriplets(diagonal.begin(), diagonal.end());
+  body.mass.setFromTriplets(entries.begin(), entries.end());
   return body;
 }
 
@@ -92,24 +132,22 @@ void MovingSprings::residual(const Vector& at, double /*load_factor*/, mechanics
   // (mass M + damping C) (at - origin)
   residual += terms_->force - diagonal_.cwiseProduct(at - terms_->origin);
   if (pull_) pull_->add_force(at, residual);
-  if (!has_stiffness_damping() || terms_->damping == 0) return;
-  moved_ = at - terms_->origin;
-  product_.setZero(at.size());
-  add_stiffness_damping(moved_, product_);
-  residual -= terms_->damping * product_;
+  if (!joins_nodes()) return;
+  moved_ = terms_->origin - at;
+  add_joined(terms_->mass, terms_->damping, moved_, residual);
 }
 
-/// Damping by stiffness joins free degrees of freedom and supports that move: half of the form in the former,
-/// all of what the latter add. What they store alone stays the same in a step.
+/// Inertia joins free degrees of freedom and supports that move: half of the form in the former, all of what
+/// the latter add. What they store alone stays the same in a step.
 double MovingSprings::energy(const Vector& at, double /*load_factor*/) {
   moved_ = at - terms_->origin;
   added_ = diagonal_.cwiseProduct(moved_);
   double added = dot(moved_, added_) / 2;
-  if (has_stiffness_damping() && terms_->damping != 0) {
+  if (joins_nodes()) {
     added_ = moved_ - 0.5 * entries_.free.cwiseProduct(moved_);
     product_.setZero(at.size());
-    add_stiffness_damping(added_, product_);
-    added += terms_->damping * dot(moved_, product_);
+    add_joined(terms_->mass, terms_->damping, added_, product_);
+    added += dot(moved_, product_);
   }
   if (pull_) added += pull_->energy(at);
   return spring_energy(at) + added - dot(terms_->force, at);

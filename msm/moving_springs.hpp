@@ -92,8 +92,11 @@ class WithPull {
 
 /// What makes a lattice move.
 struct Inertia {
-  std::vector<double> mass;         ///< t, one entry per point
+  std::vector<double> mass;         ///< t, one entry per point; lumped
   std::vector<double> mass_damping; ///< t/s, one entry per point: the part of C on the diagonal
+  /// With consistent masses: t and t/s, one entry per cell of the mesh, whose matrix takes the place of its
+  /// eighths in the lumped masses; else empty.
+  std::vector<double> cell_mass, cell_mass_damping;
   Lattice damping; ///< its tangent at rest, in N s/mm, is the rest of C: springs of beta times k
   struct LoadInTime {
     cases::History history;
@@ -102,6 +105,12 @@ struct Inertia {
   std::vector<LoadInTime> loads; ///< gravity among them
 };
 
+/// What consistent masses of a mesh's cells have beyond eighths on the diagonal, by degrees of freedom 3*node
+/// + component.
+/// @param cell_mass  t or t/s, one entry per cell; empty: no entries
+std::vector<Eigen::Triplet<double>> masses_beyond_lumped(const cases::HexMesh& mesh,
+                                                         const std::vector<double>& cell_mass);
+
 /// @param damping  the lattice of damping_springs()
 Inertia make_inertia(const cases::Scene& scene, Lattice damping);
 
@@ -109,14 +118,14 @@ Inertia make_inertia(const cases::Scene& scene, Lattice damping);
 /// stiffness. Without stiffness_damping, none. A network is in a scene of one material.
 SpringBody damping_springs(const cases::Scene& scene, const SpringBody& springs);
 
-/// The vibrations of a scene's springs about rest: the lattice's tangent there, point masses.
+/// The vibrations of a scene's springs about rest: the lattice's tangent there, its masses.
 mechanics::VibratingBody vibrating_body(const cases::Scene& scene, const Lattice& lattice);
 
 /// The motion of a lattice with the forces of its static equations, on their vectors unless forces, energy,
-/// supports and inverted cells are overridden. Masses are on the diagonal.
+/// supports and inverted cells are overridden.
 class MovingSprings : public mechanics::DynamicProblem {
  public:
-  /// Inertia in the order of the vectors, 0 on constrained degrees of freedom.
+  /// Lumped inertia in the order of the vectors, 0 on constrained degrees of freedom.
   struct Entries {
     Vector mass, mass_damping;
     std::vector<mechanics::LoadInTime> loads;
@@ -131,10 +140,11 @@ class MovingSprings : public mechanics::DynamicProblem {
 
   void mass_product(const Vector& motion, Vector& product) override {
     product = entries_.mass.cwiseProduct(motion);
+    if (joins_nodes()) add_joined(1, 0, motion, product);
   }
   void damping_product(const Vector& motion, Vector& product) override {
     product = entries_.mass_damping.cwiseProduct(motion);
-    add_stiffness_damping(motion, product);
+    if (joins_nodes()) add_joined(0, 1, motion, product);
   }
   void external_force(double time, Vector& force) override;
   /// Takes hold of the body, until let_go().
@@ -194,7 +204,7 @@ class MovingSprings : public mechanics::DynamicProblem {
   const std::optional<Pull>& pull() const { return pull_; }
   /// What was known of the one before is no longer so.
   virtual void has_pull_changed() {}
-  /// Diagonal of mass M + damping C, without damping by stiffness.
+  /// Lumped mass M + damping C, without damping by stiffness.
   const Vector& diagonal() const { return diagonal_; }
 
   /// The springs' part alone: minus their forces, and their energy.
@@ -205,9 +215,10 @@ class MovingSprings : public mechanics::DynamicProblem {
   /// Norm of the forces that springs exert on supports, N; asked for where supports move.
   virtual double reaction(const Vector& at) = 0;
 
-  /// product += damping tangent at rest * motion, on free degrees of freedom.
-  virtual bool has_stiffness_damping() const = 0;
-  virtual void add_stiffness_damping(const Vector& motion, Vector& product) = 0;
+  /// Whether inertia joins nodes: consistent masses, damping by stiffness.
+  virtual bool joins_nodes() const = 0;
+  /// product += (mass M + damping C) motion without the lumped part, on free degrees of freedom.
+  virtual void add_joined(double mass, double damping, const Vector& motion, Vector& product) = 0;
 
  private:
   mechanics::NonlinearProblem& springs_;

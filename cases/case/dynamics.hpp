@@ -75,8 +75,9 @@ SPRINGPROOF_ENUMERATION(ElementMass, consistent,
 
 /// Masses of the springs' points.
 SPRINGPROOF_ENUMERATION(PointMass,
-                        cells,  ///< an eighth of every cell that a point belongs to
-                        uniform ///< the same for every point: the body's mass over their number
+                        cells,     ///< an eighth of every cell that a point belongs to
+                        uniform,   ///< the same for every point: the body's mass over their number
+                        consistent ///< integral of density N_a N_b over trilinear cells, not diagonal
 )
 
 /// A number of a measure's course over time.

@@ -298,6 +298,9 @@ Msm read_msm(Table& table, const Case& definition) {
   read_fit(table, msm);
   table.refuse_unless(definition.dynamics || definition.material_dynamics.density, {"mass"}, has_no_mass);
   msm.mass = table.optional("mass", read_name<PointMass>).value_or(msm.mass);
+  if (msm.mass == PointMass::consistent && msm.network)
+    table.entry("mass").refuse(
+        "\"cells\" | \"uniform\" beside design = \"network\": its springs belong to no cell");
   table.refuse_unless(definition.dynamics.has_value(), {"iterations_per_step"},
                       "left out without [dynamics]");
   msm.iterations_per_step = table.optional("iterations_per_step", up_to_1000);

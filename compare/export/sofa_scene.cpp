@@ -125,6 +125,8 @@ std::vector<std::string> inexpressible_in_sofa(const ExportedMotion& motion) {
                     "takes others, which SOFA has, as implicit_euler)",
                     cases::name_of(scheme), motion.dynamics.step, motion.dynamics.end,
                     cases::name_of(motion.dynamics.start)));
+  if (!inertia.cell_mass.empty())
+    all.emplace_back("consistent masses (--set msm.mass=cells has lumped ones)");
   const double ratio = mass_damping(inertia);
   for (std::size_t p = 0; p < inertia.mass.size(); ++p)
     if (!(std::abs(inertia.mass_damping[p] - ratio * inertia.mass[p]) <= 1e-9 * ratio * inertia.mass[p])) {

@@ -230,11 +230,18 @@ namespace {
 
 using Matrix = Tangent::Matrix;
 
-/// The tangent of a lattice at rest, in the order of the direct system.
-Matrix tangent_at_rest(const Problem& problem, const Lattice& lattice) {
+/// The inertia that joins nodes, in the order of the direct system.
+/// @param cell_mass  consistent masses, or those times mass_damping    @param damping  damping by stiffness
+Matrix joined(const Problem& problem, const std::vector<double>& cell_mass, const Lattice* damping) {
   const auto n_dofs = static_cast<Eigen::Index>(problem.is_constrained.size());
-  Tangent whole(lattice, std::vector<bool>(problem.is_constrained.size()));
-  const Matrix lower = whole.assemble(lattice.rest, Clamp::no), all = lower.selfadjointView<Eigen::Lower>();
+  const auto masses = masses_beyond_lumped(problem.mesh, cell_mass);
+  Matrix all(n_dofs, n_dofs);
+  all.setFromTriplets(masses.begin(), masses.end());
+  if (damping) {
+    Tangent whole(*damping, std::vector<bool>(problem.is_constrained.size()));
+    const Matrix lower = whole.assemble(damping->rest, Clamp::no);
+    all += Matrix(lower.selfadjointView<Eigen::Lower>());
+  }
   std::vector<Eigen::Triplet<double>> ones;
   for_each_entry(problem, [&](std::size_t p, int c, Eigen::Index place) {
     ones.emplace_back(3 * static_cast<int>(p) + c, static_cast<int>(place), 1);
@@ -250,12 +257,10 @@ class MovingLattice : public MovingSprings {
       : MovingSprings(springs, entries_of(problem, inertia,
                                           [&](const Points& points) { return on_free(problem, points); })),
         problem_(problem), springs_(springs), tangent_(problem.lattice, problem.is_constrained),
-        damping_(tangent_at_rest(problem, inertia.damping)) {
-    const auto n = tangent_.n_free();
-    free_mass_ = entries().mass.head(n).asDiagonal();
-    const Matrix block = damping_.topLeftCorner(n, n);
-    free_damping_ = entries().mass_damping.head(n).asDiagonal();
-    if (block.nonZeros() > 0) free_damping_ += Matrix(block.triangularView<Eigen::Lower>());
+        mass_(joined(problem, inertia.cell_mass, nullptr)),
+        damping_(joined(problem, inertia.cell_mass_damping, &inertia.damping)) {
+    free_mass_ = on_free_dofs(entries().mass, mass_);
+    free_damping_ = on_free_dofs(entries().mass_damping, damping_);
     const OneThread one;
     factorisation_.analyse(matrix_at(problem.lattice.rest, Clamp::no, 0, 0));
   }
@@ -285,16 +290,27 @@ class MovingLattice : public MovingSprings {
   const Problem& problem_;
   SpringSystem& springs_;
   Tangent tangent_;
-  Matrix damping_;                  ///< by stiffness, of all entries of a vector
+  Matrix mass_, damping_;           ///< what joins nodes, of all entries of a vector
   Matrix free_mass_, free_damping_; ///< M and C on free degrees of freedom, lower triangles
   Factorisation factorisation_;
   WithPull<double> with_pull_;
 
   double reaction(const Vector& at) override { return springs_.reaction(at); }
-  bool has_stiffness_damping() const override { return damping_.nonZeros() > 0; }
-  void add_stiffness_damping(const Vector& motion, Vector& product) override {
-    if (!has_stiffness_damping()) return;
-    product.head(tangent_.n_free()) += (damping_ * motion).head(tangent_.n_free());
+  bool joins_nodes() const override { return mass_.nonZeros() > 0 || damping_.nonZeros() > 0; }
+  void add_joined(double mass, double damping, const Vector& motion, Vector& product) override {
+    const auto n = tangent_.n_free();
+    if (mass != 0 && mass_.nonZeros() > 0) product.head(n) += mass * (mass_ * motion).head(n);
+    if (damping != 0 && damping_.nonZeros() > 0) product.head(n) += damping * (damping_ * motion).head(n);
+  }
+
+  /// Lower triangle on the free degrees of freedom.
+  Matrix on_free_dofs(const Vector& lumped, const Matrix& joined) const {
+    const auto n = tangent_.n_free();
+    Matrix lower(n, n);
+    lower = lumped.head(n).asDiagonal();
+    const Matrix block = joined.topLeftCorner(n, n);
+    if (block.nonZeros() > 0) lower += Matrix(block.triangularView<Eigen::Lower>());
+    return lower;
   }
 
   /// Tangent + mass M + damping C, lower triangle, of one pattern whatever the factors are.

@@ -96,7 +96,8 @@ class CycleSpeed {
 class MovingGrid : public MovingSprings {
  public:
   MovingGrid(const Problem& problem, const GridProblem& grid, const NodeVectors& vectors, GridSystem& statics,
-             const Inertia& inertia, std::optional<Body> damping, int n_threads)
+             const Inertia& inertia, std::optional<Body> damping, std::optional<CellMasses> masses,
+             int n_threads)
       : MovingSprings(statics, entries_of(problem, inertia,
                                           [&](const Points& points) {
                                             Field<double> field = to_field(problem, grid.body, points);
@@ -104,12 +105,13 @@ class MovingGrid : public MovingSprings {
                                             return vectors.from_field(field);
                                           })),
         grid_(grid), body_(grid.body), vectors_(vectors), statics_(statics),
-        damping_body_(std::move(damping)), n_threads_(n_threads) {
+        damping_body_(std::move(damping)), cell_masses_(std::move(masses)), n_threads_(n_threads) {
     if (damping_body_) {
       damping_.emplace(*damping_body_, n_threads);
       rest_.setZero(3 * body_.layout.size);
-      damped_.setZero(vectors.size());
+      joined_.setZero(vectors.size());
     }
+    if (cell_masses_) masses_.emplace(body_, *cell_masses_, n_threads);
     if (grid.n_unknowns <= most_held && !body_.part) factor_.emplace(body_, vectors);
     for (const std::ptrdiff_t entry : body_.constrained)
       if (const Eigen::Index in_vector = vectors.entry(entry); in_vector >= 0)
@@ -163,10 +165,12 @@ class MovingGrid : public MovingSprings {
   GridSystem& statics_;
   std::vector<std::pair<Eigen::Index, std::ptrdiff_t>> constrained_; ///< entries, in a vector and in a field
   std::optional<Body> damping_body_;                                 ///< springs of beta times k
+  std::optional<CellMasses> cell_masses_;                            ///< none: all masses are lumped
   int n_threads_;
   std::optional<SpringField<double>> damping_;
+  std::optional<ConsistentMasses<double>> masses_;
   Field<double> rest_;
-  Vector damped_;
+  Vector joined_;               ///< room for what inertia adds
   Field<double> at_, in_, out_; ///< room for vectors as fields
   mechanics::grid::KeptFields<double> kept_;
   mechanics::grid::LinearSolution found_;
@@ -194,24 +198,40 @@ class MovingGrid : public MovingSprings {
   double spring_energy(const Vector& at) override { return statics_.energy(vectors_.to_field(at, at_), 0); }
   double reaction(const Vector& at) override { return statics_.reaction(vectors_.to_field(at, at_)); }
 
-  bool has_stiffness_damping() const override { return damping_.has_value(); }
-  void add_stiffness_damping(const Vector& motion, Vector& product) override {
-    add_damping(1, vectors_.to_field(motion, in_), product);
+  bool joins_nodes() const override { return damping_ || masses_; }
+  void add_joined(double mass, double damping, const Vector& motion, Vector& product) override {
+    const Field<double>& v = vectors_.to_field(motion, in_);
+    if (masses_ && vectors_.are_fields()) {
+      masses_->add_product(mass, damping, v, product);
+    } else if (masses_) {
+      vectors_.from_field(
+          [&](Field<double>& force) {
+            force.setZero(v.size());
+            masses_->add_product(mass, damping, v, force);
+          },
+          out_, joined_);
+      add(product, 1.0, joined_, n_threads_);
+    }
+    add_damping(damping, v, product);
   }
   /// product += factor * damping's tangent at rest * direction
   void add_damping(double factor, const Field<double>& direction, Vector& product) {
-    if (!damping_) return;
+    if (!damping_ || factor == 0) return;
     vectors_.from_field([&](Field<double>& force) { damping_->product(Clamp::no, rest_, direction, force); },
-                        out_, damped_);
-    add(product, factor, damped_, n_threads_);
+                        out_, joined_);
+    add(product, factor, joined_, n_threads_);
   }
 
   /// product = (tangent + mass + damping of the step) direction, without what pulls
   /// @param at  as a field
   void multiply(const Field<double>& at, Clamp clamp, const Vector& direction, Vector& product) {
     const Field<double>& v = vectors_.to_field(direction, in_);
-    vectors_.from_field([&](Field<double>& force) { statics_.springs().product(clamp, at, v, force); }, out_,
-                        product);
+    vectors_.from_field(
+        [&](Field<double>& force) {
+          statics_.springs().product(clamp, at, v, force);
+          if (masses_) masses_->add_product(terms().mass, terms().damping, v, force);
+        },
+        out_, product);
     add_product(product, diagonal(), direction, n_threads_);
     add_damping(terms().damping, v, product);
   }
@@ -311,10 +331,11 @@ class MovingGrid : public MovingSprings {
 
   void solve_in_real_time(const Vector& at, const Vector& residual, double forcing, Clamp clamp) {
     if (!real_time_) {
-      real_time_.emplace(body_, vectors_, multigrid_->scale(), damping_body_, n_threads_);
+      real_time_.emplace(body_, vectors_, multigrid_->scale(), damping_body_,
+                         cell_masses_ ? &*cell_masses_ : nullptr, n_threads_);
       real_time_->set_pull(pull());
     }
-    if (!is_set_) real_time_->set_step(diagonal(), terms().damping);
+    if (!is_set_) real_time_->set_step(diagonal(), terms().mass, terms().damping);
     is_set_ = true;
     const auto& found = real_time_->solve(at, clamp, residual, norm(body_, residual, n_threads_), forcing,
                                           most_iterations(max_iterations), *multigrid_, found_.solution);
@@ -352,7 +373,10 @@ std::unique_ptr<MovingSprings> make_moving_grid(const Problem& problem, const Gr
     damped->exponents.reset(); // at rest all springs are Hooke's
     damped->constrained = grid.body.constrained;
   }
-  return std::make_unique<MovingGrid>(problem, grid, vectors, statics, inertia, std::move(damped), n_threads);
+  std::optional<CellMasses> masses;
+  if (!inertia.cell_mass.empty()) masses.emplace(*problem.mesh.grid, grid.body, inertia);
+  return std::make_unique<MovingGrid>(problem, grid, vectors, statics, inertia, std::move(damped),
+                                      std::move(masses), n_threads);
 }
 
 } // namespace springproof::msm::grid

@@ -5,9 +5,10 @@
 namespace springproof::msm::grid {
 
 RealTimeSolver::RealTimeSolver(const Body& body, const NodeVectors& vectors, double scale,
-                               const std::optional<Body>& damping, int n_threads)
+                               const std::optional<Body>& damping, const CellMasses* masses, int n_threads)
     : vectors_(vectors), scale_(scale), n_threads_(n_threads), body_(scaled(body, scale)),
       springs_(body_, n_threads) {
+  if (masses) masses_.emplace(body_, *masses, n_threads);
   if (!damping) return;
   damping_body_ = scaled(*damping, scale);
   damping_.emplace(*damping_body_, n_threads);
@@ -15,9 +16,10 @@ RealTimeSolver::RealTimeSolver(const Body& body, const NodeVectors& vectors, dou
   damped_ = rest_;
 }
 
-void RealTimeSolver::set_step(const Vector& diagonal, double damping) {
+void RealTimeSolver::set_step(const Vector& diagonal, double mass, double damping) {
   vectors_.to_field(diagonal, scale_, diagonal_);
-  damping_factor_ = static_cast<float>(damping);
+  mass_factor_ = mass;
+  damping_factor_ = damping;
 }
 
 void RealTimeSolver::set_pull(const std::optional<Pull>& pull) {
@@ -36,10 +38,11 @@ void RealTimeSolver::has_cycle_changed() {
 
 void RealTimeSolver::multiply(Clamp clamp, const Field<float>& direction, Field<float>& product) {
   springs_.product(clamp, at_, direction, product);
+  if (masses_) masses_->add_product(scale_ * mass_factor_, scale_ * damping_factor_, direction, product);
   add_product(product, diagonal_, direction, n_threads_);
   if (damping_) {
     damping_->product(Clamp::no, rest_, direction, damped_);
-    add(product, damping_factor_, damped_, n_threads_);
+    add(product, static_cast<float>(damping_factor_), damped_, n_threads_);
   }
   if (pull_) pull_->add_product(direction, product);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mechanics/grid/krylov.hpp"
+#include "msm/grid/consistent_masses.hpp"
 #include "msm/grid/node_vectors.hpp"
 #include "msm/grid/spring_levels.hpp"
 #include "msm/moving_springs.hpp"
@@ -15,13 +16,15 @@ class RealTimeSolver {
   /// @param vectors  the motion's, for the body; must outlive this
   /// @param scale    factor on stiffness, the same as in the cycles given to solve()
   /// @param damping  springs whose tangent at rest is damping by stiffness
+  /// @param masses   consistent ones, which must outlive this; null: none
   RealTimeSolver(const Body& body, const NodeVectors& vectors, double scale,
-                 const std::optional<Body>& damping, int n_threads);
+                 const std::optional<Body>& damping, const CellMasses* masses, int n_threads);
   RealTimeSolver(const RealTimeSolver&) = delete; // its springs refer to its bodies
 
-  /// @param diagonal  mass and damping by mass in a step's equation, N/mm; 0 on constrained entries
-  /// @param damping   factor of damping by stiffness in it
-  void set_step(const Vector& diagonal, double damping);
+  /// @param diagonal       lumped mass and damping by mass in a step's equation, N/mm; 0 on constrained
+  ///                       entries
+  /// @param mass, damping  factors of M and C in it
+  void set_step(const Vector& diagonal, double mass, double damping);
   /// Sets what pulls from now on.
   void set_pull(const std::optional<Pull>& pull);
   /// Must be called when the cycle given to solve() has changed.
@@ -46,7 +49,8 @@ class RealTimeSolver {
   std::optional<Body> damping_body_;
   SpringField<float> springs_;
   std::optional<SpringField<float>> damping_;
-  float damping_factor_ = 0;
+  std::optional<ConsistentMasses<float>> masses_;
+  double mass_factor_ = 0, damping_factor_ = 0;
   Field<float> diagonal_, at_, rest_, right_side_, damped_;
   mechanics::grid::KeptFields<float> kept_;
   mechanics::grid::LinearSolutionIn<float> found_;

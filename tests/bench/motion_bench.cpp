@@ -136,12 +136,16 @@ void interactive(benchmark::State& state, const msm::CellStiffness& cell) {
 
 /// A cube of 40^3 cells of 1 mm, of water, held below, its top pulled to and fro by some 2 mm.
 /// Range: threads, -log10 of the tolerance.
-void cube(benchmark::State& state, const msm::CellStiffness& cell) {
+void cube(benchmark::State& state, const msm::CellStiffness& cell, bool is_consistent) {
   const int n = 40;
   const cases::HexMesh mesh = cases::make_box_mesh({1.0 * n, 1.0 * n, 1.0 * n}, {n, n, n});
   msm::Inertia inertia;
   inertia.mass.assign(mesh.nodes.size(), 1e-9 * n * n * n / static_cast<double>(mesh.nodes.size()));
   inertia.mass_damping.assign(mesh.nodes.size(), 0);
+  if (is_consistent) {
+    inertia.cell_mass.assign(mesh.cells.size(), 1e-9);
+    inertia.cell_mass_damping.assign(mesh.cells.size(), 0);
+  }
   cases::History swinging;
   swinging.frequency = 2;
   std::vector<cases::NodeVector> pull;
@@ -172,13 +176,19 @@ BENCHMARK_CAPTURE(interactive, power_log, power_log)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(1000)
     ->UseManualTime();
-BENCHMARK_CAPTURE(cube, springs, springs)
+BENCHMARK_CAPTURE(cube, springs, springs, false)
     ->ArgNames({"threads", "tolerance"})
     ->ArgsProduct({{1, 2}, {3}})
     ->Unit(benchmark::kMillisecond)
     ->Iterations(40)
     ->UseManualTime();
-BENCHMARK_CAPTURE(cube, hybrid, hybrid)
+BENCHMARK_CAPTURE(cube, consistent_masses, springs, true)
+    ->ArgNames({"threads", "tolerance"})
+    ->ArgsProduct({{1}, {3}})
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(40)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(cube, hybrid, hybrid, false)
     ->ArgNames({"threads", "tolerance"})
     ->ArgsProduct({{1}, {3}})
     ->Unit(benchmark::kMillisecond)

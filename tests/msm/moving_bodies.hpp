@@ -66,6 +66,11 @@ inline cases::Scene block(const cases::Dynamics& dynamics, const cases::Material
   return scene;
 }
 
+inline cases::Scene with_consistent_masses(cases::Scene scene) {
+  scene.definition.msm.mass = cases::PointMass::consistent;
+  return scene;
+}
+
 /// A block whose lower end is turned and moved along x.
 inline cases::Scene turned_block(const cases::Dynamics& dynamics, const cases::MaterialDynamics& material) {
   cases::Case definition = block_case(5);

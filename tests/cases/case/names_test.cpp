@@ -36,7 +36,7 @@ TEST_CASE("every enumerator has one name, and the name leads back to it") {
   check_names<Scheme>(4);
   check_names<MotionStart>(2);
   check_names<ElementMass>(2);
-  check_names<PointMass>(2);
+  check_names<PointMass>(3);
   check_names<OverTime>(8);
   check_names<Formulation>(4);
   check_names<Element>(5);

@@ -2,6 +2,7 @@
 
 #include "tests/fuzz/mutate.hpp"
 #include "tests/support/case_text.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
 #include <string>
@@ -159,11 +160,23 @@ TEST_CASE("a mistake in masses, gravity or damping is refused where it is made")
   refused("'lumped'", "'lumpy'", 33, "fem.mass", {"\"consistent\" | \"lumped\""});
   refused("'uniform'", "'uniform'\niterations_per_step = 0", 36, "msm.iterations_per_step",
           {"from 1 to 1000"});
-  refused("'uniform'", "'lumped'", 35, "msm.mass", {"\"cells\" | \"uniform\""});
+  refused("'uniform'", "'lumped'", 35, "msm.mass", {"\"cells\" | \"uniform\" | \"consistent\""});
   refused("[dynamics]",
           "[[region_material]]\naxis = 'x'\nto = 50\nmodel = 'linear_elastic'\n"
           "youngs_modulus = 1\npoissons_ratio = 0.3\n[dynamics]",
           14, "region_material[0]", {"density is missing"});
+}
+
+TEST_CASE("a network, which has no cells, is refused consistent masses") {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("springs.csv", "0,1,1\n");
+  const auto with = [&](const std::string& mass) {
+    return replaced(dynamic_case, "mass = 'uniform'",
+                    "design = 'network'\nfile = '" + file + "'\nmass = '" + mass + "'");
+  };
+  CHECK(read_text(with("cells")).msm.mass == PointMass::cells);
+  CHECK_THROWS_WITH(read_text(with("consistent")),
+                    Catch::Contains("msm.mass") && Catch::Contains("belong to no cell"));
 }
 
 TEST_CASE("a mistake in a history is refused where it is made") {

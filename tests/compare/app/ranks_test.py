@@ -250,12 +250,12 @@ def test_a_motion(folder):
     """the springs' motion is computed on one rank, and every rank has it; solvers for several ranks are refused"""
     text = MOTION % ('shape = "box"\nsize = [30, 10, 10]\ncells = [9, 3, 3]', "hybrid")
     motions = []
-    for ranks in (1, 2):
-        document, out, _ = solve(folder, text, ranks, "--only", "msm")
+    for ranks, mass in ((1, "consistent"), (2, "consistent"), (2, "cells")):
+        document, out, _ = solve(folder, text, ranks, "--only", "msm", "--set", f"msm.mass={mass}")
         assert document["msm"]["status"] == "converged", document
         motions.append(document["motion"])
         assert [n for n in files_in(out) if n.startswith("block_motion/")] == [f"block_motion/block_{i:04}.vtu" for i in range(5)], files_in(out)
-    assert len(motions[0]["time"]) == 21 and motions[0] == motions[1], motions
+    assert len(motions[0]["time"]) == 21 and motions[0] == motions[1] != motions[2], motions
     for solver in ("snes", "fire"):
         case = folder / "block.toml"
         case.write_text(text.replace('design = "hybrid"', f'design = "hybrid"\nsolver = "{solver}"'))

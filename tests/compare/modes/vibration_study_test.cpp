@@ -2,6 +2,9 @@
 #include "cases/case/read_case.hpp"
 #include "compare/modes/modes.hpp"
 #include "compare/peers/calculix.hpp"
+#include "compare/solve/solvers.hpp"
+#include "compare/solve/springs.hpp"
+#include "msm/moving_springs.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -148,4 +151,45 @@ TEST_CASE("quadratic finite elements on a finer mesh are compared on the body's 
   CHECK(bending.fem_hz < beam);
   CHECK(bending.fem_hz > 0.9 * beam);
   CHECK(bending.overlap > 0.99);
+}
+
+TEST_CASE("springs' frequencies come to the finite elements' limit with lumped and with consistent masses",
+          "[verification][long]") {
+  const auto scene_of = [](bool is_cantilever, int n) {
+    cases::Scene scene = bar(is_cantilever);
+    auto definition = scene.definition;
+    definition.material = cases::LinearElastic{0.1, 0.35};
+    definition.body =
+        is_cantilever ? cases::Box{{40, 10, 10}, {4 * n, n, n}} : cases::Box{{10, 10, 10}, {n, n, n}};
+    return cases::make_scene(definition);
+  };
+  for (const bool is_cantilever : {true, false}) {
+    const int n_modes = is_cantilever ? 7 : 2; // further modes of the coarse cube come in another order
+    const auto hertz_of = [&](const cases::Scene& scene, const mechanics::VibratingBody& body) {
+      return compare::vibrations_of(body, compare::mode_masses(scene), n_modes).hertz;
+    };
+    cases::Scene fine = scene_of(is_cantilever, 6);
+    fine.definition.fem.element = cases::Element::q2;
+    const Eigen::VectorXd limit = hertz_of(fine, compare::solvers().vibrating_elements(fine));
+    const auto errors = [&](int n, cases::PointMass mass) -> Eigen::VectorXd {
+      cases::Scene scene = scene_of(is_cantilever, n);
+      scene.definition.msm.mass = mass;
+      const msm::Lattice lattice = msm::make_lattice(scene.mesh, compare::design_for(scene).springs);
+      return (hertz_of(scene, msm::vibrating_body(scene, lattice)).array() / limit.array() - 1).abs();
+    };
+    Eigen::VectorXd of_kind[2];
+    for (const auto mass : {cases::PointMass::cells, cases::PointMass::consistent}) {
+      INFO(cases::name_of(mass) << (is_cantilever ? ", cantilever" : ", free cube"));
+      const Eigen::VectorXd coarse = errors(3, mass), finer = errors(6, mass);
+      CAPTURE(coarse.transpose(), finer.transpose());
+      // Orders from 1.3 to 2: springs of the surface belong to fewer cells.
+      CHECK((finer.array() < 0.42 * coarse.array()).all());
+      CHECK(finer.maxCoeff() < 0.04);
+      of_kind[mass == cases::PointMass::consistent] = finer;
+    }
+    // Torsion of the cantilever; the cube's lowest pair.
+    for (const Eigen::Index mode :
+         is_cantilever ? std::vector<Eigen::Index>{2, 6} : std::vector<Eigen::Index>{0})
+      CHECK(of_kind[1][mode] < 0.5 * of_kind[0][mode]);
+  }
 }

@@ -64,14 +64,21 @@ double lame_frequency(int n, double poissons_ratio) {
                         compare::assemble(mesh, mechanics::consistent_mass(vertices, density)));
 }
 
-/// Frequency (Hz) of the Lamé mode of springs between point masses, n cells along an edge.
-double lame_frequency(int n, double poissons_ratio, cases::Design design) {
+/// A free cube of springs, n cells along an edge.
+cases::Case cube_of_springs(int n, double poissons_ratio, cases::Design design, cases::PointMass mass) {
   cases::Case definition;
   definition.body = cases::Box{Eigen::Vector3d::Constant(edge), {n, n, n}};
   definition.material = material(poissons_ratio);
   definition.material_dynamics.density = 1e12 * density; // kg/m³
   definition.msm.design = design;
-  const cases::Scene scene = cases::make_scene(definition);
+  definition.msm.mass = mass;
+  return definition;
+}
+
+/// Frequency (Hz) of the Lamé mode of springs.
+double lame_frequency(int n, double poissons_ratio, cases::Design design,
+                      cases::PointMass mass = cases::PointMass::cells) {
+  const cases::Scene scene = cases::make_scene(cube_of_springs(n, poissons_ratio, design, mass));
   const auto body =
       msm::vibrating_body(scene, msm::make_lattice(scene.mesh, compare::design_for(scene).springs));
   return lame_frequency(scene.mesh, body.stiffness, body.mass);
@@ -100,6 +107,30 @@ TEST_CASE("the Lame mode of a free cube is approached at order 2, whatever Poiss
     CHECK(fine < 0.02);
     CHECK(std::log2(coarse / fine) == Approx(2).margin(0.1)); // the next power of the cell's size
   }
+}
+
+TEST_CASE("consistent masses of springs are integrals of N_a N_b, on cells of any shape", "[verification]") {
+  const cases::Case definition = cube_of_springs(3, 0.3, cases::Design::hybrid, cases::PointMass::consistent);
+  cases::Scene scene = cases::make_scene(definition);
+  const msm::Lattice lattice = msm::make_lattice(scene.mesh, compare::design_for(scene).springs);
+  const auto mass_of = [&] { return msm::vibrating_body(scene, lattice).mass; };
+  for (Eigen::Vector3d& x : scene.mesh.nodes.stored()) x += Eigen::Vector3d(0.4 * x.y(), 0, 0.3 * x.x());
+  const auto expected =
+      compare::assemble(scene.mesh, mechanics::consistent_mass(cases::cell_vertices(scene.mesh, 0), density));
+  CHECK((mass_of() - expected).norm() <= 1e-14 * expected.norm()); // rounding
+  // No two cells alike: all of the body's mass, for each component.
+  for (Eigen::Vector3d& x : scene.mesh.nodes.stored())
+    x += 0.3 * Eigen::Vector3d(std::sin(7 * x.z()), std::sin(5 * x.x()), std::sin(9 * x.y()));
+  double volume = 0;
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
+    volume += cases::cell_volume(cases::cell_vertices(scene.mesh, c));
+  CHECK(mass_of().sum() == Approx(3 * density * volume).epsilon(1e-13));
+  const cases::AddedMass weight{cases::Region{"x+"}, 1e-6}; // kg
+  const Eigen::SparseMatrix<double> without = mass_of();
+  scene.masses.push_back({cases::select(scene.mesh, weight.region), weight});
+  const Eigen::SparseMatrix<double> added = (mass_of() - without).pruned(1, 1e-20);
+  CHECK(added.sum() == Approx(3e-9).epsilon(1e-9)); // t; as it was on the diagonal
+  CHECK(added.diagonal().sum() == Approx(added.sum()).epsilon(1e-12));
 }
 
 TEST_CASE("a free body has six vibrations of frequency 0, and modes of unit mass", "[verification]") {

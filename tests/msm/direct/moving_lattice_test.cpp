@@ -57,7 +57,9 @@ Vector random_vector(Eigen::Index n) {
 } // namespace
 
 TEST_CASE("the tangent of a lattice's step is the derivative of its residual, damping and mass included") {
-  Moving lattice(two_cells(true, 3, 0.02));
+  cases::Scene scene = two_cells(true, 3, 0.02);
+  scene.definition.msm.mass = GENERATE(cases::PointMass::cells, cases::PointMass::consistent);
+  Moving lattice(scene);
   const Vector at = 0.3 * random_vector(lattice.rest().size()), origin = 0.5 * at,
                force = random_vector(at.size()), along = random_vector(at.size()).reverse();
   lattice.motion->set_step({1e7, 1e4, origin, force, origin, 1});
@@ -75,7 +77,9 @@ TEST_CASE("the tangent of a lattice's step is the derivative of its residual, da
 }
 
 TEST_CASE("a lattice that nothing holds falls as the parabola says, and keeps its shape", "[verification]") {
-  Moving lattice(two_cells(false, 0, 0));
+  cases::Scene scene = two_cells(false, 0, 0);
+  scene.definition.msm.mass = GENERATE(cases::PointMass::cells, cases::PointMass::consistent);
+  Moving lattice(scene);
   mechanics::TimeIntegrator motion(*lattice.motion, {cases::Scheme::newmark},
                                    {0, lattice.rest(), lattice.rest(), {}});
   for (int n = 1; n <= 100; ++n) motion.advance(n * 0.001);
@@ -128,7 +132,9 @@ TEST_CASE("springs of cells of terms are damped as those of four stiffnesses, ce
 
 TEST_CASE("damping in proportion to stiffness resists no rigid motion, damping in proportion to mass does") {
   for (const bool is_of_mass : {true, false}) {
-    Moving lattice(two_cells(false, is_of_mass ? 2 : 0, is_of_mass ? 0 : 2));
+    cases::Scene scene = two_cells(false, is_of_mass ? 2 : 0, is_of_mass ? 0 : 2);
+    scene.definition.msm.mass = GENERATE(cases::PointMass::cells, cases::PointMass::consistent);
+    Moving lattice(scene);
     Vector velocity = lattice.rest(), mass = velocity, damping = velocity;
     for (Eigen::Index p = 0; p < velocity.size(); p += 3) velocity[p] = 1; // velocity along x
     lattice.motion->mass_product(velocity, mass);

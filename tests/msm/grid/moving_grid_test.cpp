@@ -92,6 +92,66 @@ TEST_CASE("motions on a grid are those of the direct path: supports that turn, w
   }
 }
 
+TEST_CASE("motions on a grid are those of the direct path: consistent masses", "[verification]") {
+  const cases::Dynamics dynamics = steps(cases::Scheme::generalized_alpha, 0.005, 0.05);
+  cases::Scene scene = block(dynamics, {1000., 5, 0.002}, true);
+  SECTION("dampings, holes") {
+    check_paths_agree(with_consistent_masses(scene), {hybrid_springs});
+  }
+  SECTION("several materials, weights") {
+    scene.definition.region_materials.emplace_back().dynamics = {3000., 8, 0};
+    for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
+      scene.material_of_cell.push_back(c % 3 == 0 ? 1 : 0);
+    cases::AddedMass weight{region_of("z+"), 0.12};
+    scene.masses.push_back({cases::select(scene.mesh, weight.region), weight});
+    check_paths_agree(with_consistent_masses(scene),
+                      std::vector<msm::CellStiffness>(scene.mesh.cells.size(), hybrid_springs));
+  }
+  SECTION("supports that turn") {
+    check_paths_agree(with_consistent_masses(turned_block(dynamics, {1000., 3, 0.003})), {hybrid_springs});
+  }
+}
+
+TEST_CASE("consistent masses on a grid are the assembled ones, holes, materials, moved supports and all",
+          "[verification]") {
+  cases::Scene scene = block({}, {1000., 5, 0}, true, 7);
+  scene.definition.region_materials.emplace_back().dynamics = {3000., 8, 0};
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
+    scene.material_of_cell.push_back(c % 3 == 0 ? 1 : 0);
+  for (const cases::Scene& of :
+       {with_consistent_masses(scene), with_consistent_masses(turned_block({}, {1000., 3, 0}))}) {
+    const msm::SpringBody springs = std::vector<msm::CellStiffness>(of.mesh.cells.size(), hybrid_springs);
+    msm::MovingBody on_grid(of, springs, {msm::Path::multigrid, 1, {}, {}}),
+        assembled(of, springs, {msm::Path::direct, 1, {}, {}});
+    std::mt19937 generator(3);
+    std::uniform_real_distribution<double> value(-1, 1);
+    msm::Points motion;
+    for (std::size_t p = 0; p < of.mesh.nodes.size(); ++p)
+      motion.emplace_back(value(generator), value(generator), value(generator));
+    const auto& problem = on_grid.problem();
+    for (std::size_t dof = 0; dof < problem.is_constrained.size(); ++dof)
+      if (problem.is_constrained[dof] && !problem.supports) motion[dof / 3][static_cast<int>(dof % 3)] = 0;
+    for (const bool is_mass : {true, false}) {
+      const auto product_of = [&](msm::MovingBody& body) {
+        Vector product;
+        if (is_mass)
+          body.motion().mass_product(body.to_vector(motion), product);
+        else
+          body.motion().damping_product(body.to_vector(motion), product);
+        return body.to_points(product);
+      };
+      const msm::Points a = product_of(on_grid), b = product_of(assembled);
+      double largest = 0, size = 0;
+      for (std::size_t p = 0; p < a.size(); ++p) {
+        largest = larger(largest, (a[p] - b[p]).norm());
+        size = larger(size, b[p].norm());
+      }
+      CHECK(size > 1e-7);             // t mm
+      CHECK(largest <= 1e-13 * size); // rounding
+    }
+  }
+}
+
 TEST_CASE("a motion on a grid starts in the equilibrium of its loads") {
   cases::Dynamics dynamics = steps(cases::Scheme::newmark, 0.005, 0.02);
   dynamics.start = cases::MotionStart::equilibrium;
@@ -144,8 +204,8 @@ TEST_CASE("a step in real time that its iterations leave further from balance th
 
 TEST_CASE("a step on a grid is the same bit for bit on one and two threads", "[long]") {
   const auto end = [](int n_threads) {
-    const cases::Scene scene =
-        block(steps(cases::Scheme::generalized_alpha, 0.01, 0.02), {1000., 1, 0.002}, false, 24);
+    const cases::Scene scene = with_consistent_masses(
+        block(steps(cases::Scheme::generalized_alpha, 0.01, 0.02), {1000., 1, 0.002}, false, 24));
     return msm::follow(scene, {hybrid_springs}, {msm::Path::multigrid, n_threads, {}, {}});
   };
   const cases::Solution one = end(1), two = end(2);
@@ -157,34 +217,41 @@ TEST_CASE("a step on a grid is the same bit for bit on one and two threads", "[l
 }
 
 TEST_CASE("the tangent of a step on a grid is the derivative of its residual, damping and mass included") {
-  const Moving body(block({}, {1000., 3, 0.02}), hybrid_springs);
-  const Vector at = body.random_motion(0.3, 5), origin = body.random_motion(0.3, 6),
-               force = body.random_motion(1, 7), along = body.random_motion(1, 8);
-  for (const double mass : {1e2, 1e7, 1e12}) { // the cycle goes down, or not
-    INFO("mass factor " << mass);
-    body.motion->set_step({mass, 1e4, origin, force, origin, 1});
-    constexpr double small = 1e-5; // mm
-    const auto residual = [&](double way) -> Vector {
-      return body.motion->residual(at + way * along, 0, mechanics::Expect::residual);
-    };
-    const Vector product = (residual(-small) - residual(small)) / (2 * small);
-    const auto step = body.motion->direction(at, product, 0, 1e-10, mechanics::Convexity::exact);
-    REQUIRE(step);
-    CHECK((*step - along).norm() <= 1e-5 * along.norm());
+  const cases::Scene lumped = block({}, {1000., 3, 0.02});
+  for (const cases::Scene& scene : {lumped, with_consistent_masses(lumped)}) {
+    const Moving body(scene, hybrid_springs);
+    const Vector at = body.random_motion(0.3, 5), origin = body.random_motion(0.3, 6),
+                 force = body.random_motion(1, 7), along = body.random_motion(1, 8);
+    for (const double mass : {1e2, 1e7, 1e12}) { // the cycle goes down, or not
+      INFO("mass factor " << mass << ", " << cases::name_of(scene.definition.msm.mass));
+      body.motion->set_step({mass, 1e4, origin, force, origin, 1});
+      constexpr double small = 1e-5; // mm
+      const auto residual = [&](double way) -> Vector {
+        return body.motion->residual(at + way * along, 0, mechanics::Expect::residual);
+      };
+      const Vector product = (residual(-small) - residual(small)) / (2 * small);
+      const auto step = body.motion->direction(at, product, 0, 1e-10, mechanics::Convexity::exact);
+      REQUIRE(step);
+      CHECK((*step - along).norm() <= 1e-5 * along.norm());
+    }
   }
 }
 
 TEST_CASE("a step's residual is minus the derivative of its energy, where damped supports move too") {
-  const Moving body(turned_block({}, {1000., 3, 0.02}), hybrid_springs);
-  Vector at = body.random_motion(0.3, 5);
-  const Vector origin = body.random_motion(0.3, 6), force = body.random_motion(1, 7),
-               along = body.random_motion(1, 8);
-  body.motion->supports_at(0.02, at);
-  body.motion->set_step({1e4, 1e2, origin, force, at, 1});
-  constexpr double small = 1e-4; // mm
-  const auto energy = [&](double way) { return body.motion->energy(at + way * along, 0); };
-  const Vector residual = body.motion->residual(at, 0);
-  CHECK((energy(-small) - energy(small)) / (2 * small) == Approx(residual.dot(along)).epsilon(1e-6));
+  const cases::Scene lumped = turned_block({}, {1000., 3, 0.02});
+  for (const cases::Scene& scene : {lumped, with_consistent_masses(lumped)})
+    for (const double mass : {1e4, 1e8}) {
+      const Moving body(scene, hybrid_springs);
+      Vector at = body.random_motion(0.3, 5);
+      const Vector origin = body.random_motion(0.3, 6), force = body.random_motion(1, 7),
+                   along = body.random_motion(1, 8);
+      body.motion->supports_at(0.02, at);
+      body.motion->set_step({mass, 1e2, origin, force, at, 1});
+      constexpr double small = 1e-4; // mm
+      const auto energy = [&](double way) { return body.motion->energy(at + way * along, 0); };
+      const Vector residual = body.motion->residual(at, 0);
+      CHECK((energy(-small) - energy(small)) / (2 * small) == Approx(residual.dot(along)).epsilon(1e-6));
+    }
 }
 
 } // namespace moving_bodies

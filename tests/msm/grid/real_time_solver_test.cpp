@@ -16,7 +16,8 @@ TEST_CASE("in real time a step's equation is solved in single precision: holes, 
       for (const double unit : {1., 1e-25, 1e25}) // factor on every stiffness
         for (const double stiffness : {0., 0.01, 100., 1e4, 1e6}) {
           CAPTURE(has_holes, material.stiffness_damping, unit, stiffness);
-          const cases::Scene scene = block({}, material, has_holes, 15); // too many unknowns for a factor
+          cases::Scene scene = block({}, material, has_holes, 15); // too many unknowns for a factor
+          if (stiffness == 100 || stiffness == 0) scene = with_consistent_masses(std::move(scene));
           const Moving body(scene, {msm::scaled(hybrid_springs, unit)});
           // The mass term is as large as the stiffness, whatever its unit.
           const Vector rest = body.rest();
