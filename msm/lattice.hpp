@@ -35,6 +35,7 @@ struct CellStiffness {
   double volume = 0;                    ///< k_v, MPa
   std::optional<Exponents> exponents{}; ///< another law than Hooke's, with its law of the volume term in
                                         ///< place of the linear one, (k_v/2) V0 (V/V0 - 1)²
+  double midline = 0;                   ///< k_m of each of the 3 midlines, N/mm
 
   /// k_e, k_f, k_d.
   std::array<double, 3> springs() const { return {edge, face_diagonal, internal_diagonal}; }
@@ -42,7 +43,7 @@ struct CellStiffness {
 
 /// All stiffnesses times a factor.
 inline CellStiffness scaled(CellStiffness k, double factor) {
-  for (double* of : {&k.edge, &k.face_diagonal, &k.internal_diagonal, &k.volume}) *of *= factor;
+  for (double* of : {&k.edge, &k.face_diagonal, &k.internal_diagonal, &k.volume, &k.midline}) *of *= factor;
   return k;
 }
 
@@ -66,8 +67,8 @@ using Positions = std::array<Eigen::Vector3d, n>;
 /// Two points joined by a spring. Springs of one law that cells share are one link with the sum of the cells'
 /// stiffnesses.
 ///
-/// The terms of a lattice are of several kinds: links, VolumeCell, Tetrahedron. Every kind has, by its nodes'
-/// positions x, the `energy`, N mm; the `forces` on the nodes, N, minus its gradient; the
+/// The terms of a lattice are of several kinds: links, Midline, VolumeCell, Tetrahedron. Every kind has, by
+/// its nodes' positions x, the `energy`, N mm; the `forces` on the nodes, N, minus its gradient; the
 /// `tangent`, its second derivative: a function that returns the 3x3 block of two nodes, N/mm, clamped such
 /// that the whole is positive semidefinite where no stiffness is negative; and the `small_motion_energy` of a
 /// motion from rest, to second order. Its `edges` tell how much it is deformed.
@@ -86,6 +87,38 @@ struct Link {
                                                                   std::size_t b) -> Eigen::Matrix3d {
       return a == b ? block : Eigen::Matrix3d(-block);
     };
+  }
+};
+
+/// The centres of two opposite faces of a cell, means of four vertices each, joined by a spring. It follows
+/// stretch and shear of the cell as the four edges beside it do, and resists no bending.
+struct Midline {
+  static constexpr auto& edges = cases::cell_edges;
+  std::array<int, 8> nodes; ///< vertex v = i + 2j + 4k
+  int axis;                 ///< from the face of the vertices whose bit `axis` is 0 to the other
+  Spring spring;
+
+  /// What vertex v adds to the vector between the centres, times its position.
+  double part(std::size_t v) const { return (v >> axis & 1U) != 0 ? 0.25 : -0.25; }
+  Eigen::Vector3d between_centres(const CellPositions& x) const {
+    Eigen::Vector3d d = Eigen::Vector3d::Zero();
+    for (std::size_t v = 0; v < 8; ++v) d += part(v) * x[v];
+    return d;
+  }
+  double energy(const CellPositions& x) const { return spring_energy(between_centres(x), spring); }
+  double small_motion_energy(const CellPositions& rest, const CellPositions& motion) const {
+    const double elongation = between_centres(rest).normalized().dot(between_centres(motion));
+    return 0.5 * spring.stiffness * elongation * elongation;
+  }
+  CellPositions forces(const CellPositions& x) const {
+    const Eigen::Vector3d force = spring_force(between_centres(x), spring); // on the first centre
+    CellPositions all;
+    for (std::size_t v = 0; v < 8; ++v) all[v] = -part(v) * force;
+    return all;
+  }
+  auto tangent(const CellPositions& x, Clamp clamp) const {
+    return [own = *this, block = spring_stiffness(between_centres(x), spring, clamp)](
+               std::size_t a, std::size_t b) -> Eigen::Matrix3d { return own.part(a) * own.part(b) * block; };
   }
 };
 
@@ -176,6 +209,7 @@ struct Lattice {
   std::vector<Link> links;
   std::vector<VolumeCell> volume_cells; ///< empty when no cell has a volume term
   std::vector<Tetrahedron> tetrahedra{};
+  std::vector<Midline> midlines{};
 };
 
 /// Calls action(terms) for the terms of each kind.
@@ -185,6 +219,7 @@ void for_each_kind(AnyLattice& lattice, const Action& action) {
   action(lattice.links);
   action(lattice.volume_cells);
   action(lattice.tetrahedra);
+  action(lattice.midlines);
 }
 
 template<class Term>

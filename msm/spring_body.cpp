@@ -127,6 +127,11 @@ void add_cell(Lattice& lattice, const CellTerms& terms, const std::array<int, 8>
     const double length = (lattice.rest[index(j)] - lattice.rest[index(i)]).norm();
     lattice.links.push_back({i, j, {spring.stiffness, length, spring.law}});
   }
+  for (const auto& [axis, stiffness, law] : terms.midlines) {
+    Midline midline{nodes, axis, {stiffness, 0, law}};
+    midline.spring.rest_length = midline.between_centres(at_nodes(nodes, lattice.rest)).norm();
+    if (stiffness != 0) lattice.midlines.push_back(midline);
+  }
   for (const auto& [vertices, lambda, mu] : terms.tetrahedra) {
     const std::array<int, 4> own = cases::pick(nodes, vertices);
     lattice.tetrahedra.push_back(make_tetrahedron(own, at_nodes(own, lattice.rest), lambda, mu));
@@ -157,6 +162,8 @@ CellTerms terms_of(const CellStiffness& stiffness) {
   add(cases::cell_edges, stiffness.edge, 1);
   add(cases::cell_face_diagonals, stiffness.face_diagonal, 2);
   add(cases::cell_internal_diagonals, stiffness.internal_diagonal, 3);
+  for (int axis = 0; axis < 3 && stiffness.midline != 0; ++axis)
+    terms.midlines.push_back({axis, stiffness.midline, law_of(stiffness.exponents, 1)});
   terms.volume = stiffness.volume;
   terms.is_logarithmic = has_logarithmic_volume(kind_of(stiffness.exponents));
   return terms;
@@ -175,6 +182,7 @@ CellTerms terms_by_axis(const AxisStiffness& stiffness) {
 
 CellTerms scaled(CellTerms terms, double factor) {
   for (CellSpring& spring : terms.springs) spring.stiffness *= factor;
+  for (CellMidline& midline : terms.midlines) midline.stiffness *= factor;
   for (CellTetrahedron& tetrahedron : terms.tetrahedra)
     for (double* of : {&tetrahedron.lambda, &tetrahedron.mu}) *of *= factor;
   terms.volume *= factor;
@@ -188,6 +196,7 @@ int n_axes(const CellSpring& spring) {
 
 void set_exponents(CellTerms& terms, const Exponents& exponents) {
   for (CellSpring& spring : terms.springs) spring.law = law_of(exponents, n_axes(spring));
+  for (CellMidline& midline : terms.midlines) midline.law = law_of(exponents, 1);
   terms.is_logarithmic = has_logarithmic_volume(exponents.law);
 }
 

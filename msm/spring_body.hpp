@@ -24,11 +24,19 @@ struct CellTetrahedron {
   double lambda, mu; ///< MPa
 };
 
-/// A cell of springs between any two vertices, each with a law of its own, tetrahedra of biquadratic springs,
-/// and a volume term.
+/// A spring between the centres of a cell's two faces across an axis.
+struct CellMidline {
+  int axis;
+  double stiffness; ///< N/mm
+  SpringLaw law{};
+};
+
+/// A cell of springs between any two vertices and of midlines, each with a law of its own, tetrahedra of
+/// biquadratic springs, and a volume term.
 struct CellTerms {
   std::vector<CellSpring> springs{};
   std::vector<CellTetrahedron> tetrahedra{};
+  std::vector<CellMidline> midlines{};
   double volume = 0;           ///< k_v, MPa
   bool is_logarithmic = false; ///< the volume term
 };

@@ -1,5 +1,7 @@
 #include "cases/case/designs.hpp"
 
+#include "cases/case/models.hpp"
+
 #include <array>
 
 namespace springproof::cases {
@@ -43,6 +45,13 @@ const std::vector<DesignFacts>& all_designs() {
        "docs/using/designs.md",
        {"poissons_ratio", "split", "strain_range"},
        DesignLaw::power_log,
+       DesignRatio{0}},
+      {D::midline,
+       "the matched's moduli and curves, and bending as a bar's, by springs between the centres of faces",
+       "docs/developing/design-theory.md",
+       {"poissons_ratio", "split", "strain_range", "beta"},
+       DesignLaw::fitted_or_hooke,
+       DesignMaterial::any,
        DesignRatio{0}},
       {D::multi_load,
        "springs and a volume term that fit stresses along several homogeneous paths",
@@ -129,6 +138,14 @@ bool is_of_others(Design design) {
 
 std::string designs_with(const std::string& key) {
   return designs_that([&](Design design) { return takes(design, key); });
+}
+
+SpringLaw law_of(const Msm& msm, const Material& material) {
+  const DesignLaw law = facts_of(msm.design).law;
+  const bool finds_exponents =
+      law == DesignLaw::power_log || (law == DesignLaw::fitted_or_hooke && is_isotropic(material) &&
+                                      !(msm.poissons_ratio.value_or(poissons_ratio_of(material)) < 0.25));
+  return msm.law.value_or(finds_exponents ? SpringLaw::power_log : SpringLaw::hooke);
 }
 
 bool is_for(Design design, bool is_isotropic) {

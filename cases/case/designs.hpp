@@ -7,18 +7,19 @@
 /// function for every row that designs from a material.
 namespace springproof::cases {
 
-SPRINGPROOF_ENUMERATION(Design, linear_method, nonlinear_method, moduli, hybrid, matched, multi_load,
+SPRINGPROOF_ENUMERATION(Design, linear_method, nonlinear_method, moduli, hybrid, matched, midline, multi_load,
                         ladd_kinney, baudet, uniform, van_gelder, lloyd, biquadratic, transverse, given,
                         network)
 
 /// The spring laws that a design goes with.
 enum class DesignLaw {
   any,
-  hooke,       ///< it fits Hooke's springs to curves: its stiffnesses suit no other law
-  fitted,      ///< Hooke's, or power-log springs, whose exponents it fits when none are given
-  power_log,   ///< it finds the exponents itself
-  biquadratic, ///< energies of squared lengths
-  by_spring    ///< every spring has its own
+  hooke,           ///< it fits Hooke's springs to curves: its stiffnesses suit no other law
+  fitted,          ///< Hooke's, or power-log springs, whose exponents it fits when none are given
+  power_log,       ///< it finds the exponents itself
+  fitted_or_hooke, ///< power-log springs as fitted ones, or Hooke's where the case says so
+  biquadratic,     ///< energies of squared lengths
+  by_spring        ///< every spring has its own
 };
 
 /// What the cells of a design consist of.

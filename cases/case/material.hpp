@@ -4,6 +4,7 @@
 #include "cases/case/dynamics.hpp"
 
 #include <cmath>
+#include <numeric>
 
 /// [material] and [[region_material]] of a case file. Units: MPa, mm.
 namespace springproof::cases {
@@ -52,6 +53,15 @@ inline std::optional<Axis> axis_along(const Eigen::Vector3d& direction) {
 
 inline bool is_isotropic(const Material& material) {
   return !std::holds_alternative<TransverselyIsotropic>(material);
+}
+
+/// Poisson's ratio at rest of an isotropic material.
+inline double poissons_ratio_of(const Material& material) {
+  if (const auto* linear = std::get_if<LinearElastic>(&material)) return linear->poissons_ratio;
+  const auto& ogden = std::get<Ogden>(material);
+  if (!ogden.bulk_modulus) return 0.5;
+  const double mu = std::accumulate(ogden.mu.begin(), ogden.mu.end(), 0.0), kappa = *ogden.bulk_modulus;
+  return (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
 }
 
 /// A material for a part of the body, in place of the body's own. The part is the cells of a physical group,

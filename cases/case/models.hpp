@@ -3,6 +3,7 @@
 #include "cases/case/designs.hpp"
 #include "cases/case/dynamics.hpp"
 #include "cases/case/error.hpp"
+#include "cases/case/material.hpp"
 #include "cases/case/spring_law.hpp"
 
 #include <array>
@@ -66,14 +67,15 @@ struct Msm {
   Design design = Design::linear_method;
   Solver solver = Solver::newton;
   std::optional<double> poissons_ratio; ///< design from another nu than the material's
-  std::optional<double> split;          ///< t of the moduli, hybrid, matched and multi_load designs, 0 to 1
+  std::optional<double> split; ///< t of the moduli, hybrid, matched, midline and multi_load designs, 0 to 1
+  std::optional<double> beta;  ///< of the midline design: resistance to bending over a slender bar's
   std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d; design = "given"
   /// N/m: k_e along x, y, z; k_f in the faces across x, y, z; k_d; design = "given", in place of stiffness
   std::optional<std::array<double, 7>> axis_stiffness;
-  std::optional<double> uniform_stiffness; ///< every spring's, N/m; design = "uniform"
-  double volume_stiffness = 0;             ///< MPa: k_v; design = "given"
-  std::optional<NamedFile> network;        ///< design = "network", CSV: read_network()
-  SpringLaw law = SpringLaw::hooke;
+  std::optional<double> uniform_stiffness;       ///< every spring's, N/m; design = "uniform"
+  double volume_stiffness = 0;                   ///< MPa: k_v; design = "given"
+  std::optional<NamedFile> network;              ///< design = "network", CSV: read_network()
+  std::optional<SpringLaw> law{};                ///< where it is other than the design's own
   std::optional<std::array<double, 3>> exponent; ///< p of edges, face and internal diagonals; power_log. The
                                                  ///< matched design finds its own where there is none
   std::vector<LoadPath> paths;                   ///< multi_load; empty: all
@@ -86,8 +88,13 @@ struct Msm {
   Where where;
   std::optional<RelaxationCounts> relaxation{}; ///< force_scaling; absent: it runs until equilibrium
 };
-SPRINGPROOF_FIELDS(Msm, design, solver, poissons_ratio, split, stiffness, axis_stiffness, uniform_stiffness,
-                   volume_stiffness, network, law, exponent, paths, weights, strain_range, has_volume_term,
-                   accepted, mass, iterations_per_step, where, relaxation)
+SPRINGPROOF_FIELDS(Msm, design, solver, poissons_ratio, split, beta, stiffness, axis_stiffness,
+                   uniform_stiffness, volume_stiffness, network, law, exponent, paths, weights, strain_range,
+                   has_volume_term, accepted, mass, iterations_per_step, where, relaxation)
+
+/// The law of the springs: the case's, or the design's own: power-log springs where it finds their exponents.
+/// The midline's are Hooke's in a material with a fibre and below nu = 0.25, where the volume term is
+/// negative and springs that soften carry no large tension.
+SpringLaw law_of(const Msm& msm, const Material& material);
 
 } // namespace springproof::cases

@@ -183,23 +183,37 @@ bool has_exponent(SpringLaw law) {
   return true;
 }
 
-void read_law(Table& table, Msm& msm) {
+/// Whether materials have exponents of their own.
+bool differ(const std::vector<Material>& materials) {
+  if (materials.size() == 1) return false;
+  return std::any_of(materials.begin(), materials.end(), [&](const Material& material) {
+    const auto ratio_of = [](const Material& m) { return std::get<LinearElastic>(m).poissons_ratio; };
+    return !std::holds_alternative<LinearElastic>(material) ||
+           ratio_of(material) != ratio_of(materials.front());
+  });
+}
+
+void read_law(Table& table, Msm& msm, const std::vector<Material>& materials) {
   const DesignLaw law = facts_of(msm.design).law;
-  if (law != DesignLaw::any && law != DesignLaw::hooke && law != DesignLaw::fitted) {
+  const bool is_fitted =
+      is_isotropic(materials.front()) && (law == DesignLaw::fitted || law == DesignLaw::fitted_or_hooke);
+  if (law == DesignLaw::power_log || law == DesignLaw::biquadratic || law == DesignLaw::by_spring) {
     table.refuse_unless(
         false, {"law", "exponent"},
         fmt::format("left out: design = \"{}\" has springs of a law of its own", name_of(msm.design)));
-    if (law == DesignLaw::power_log) msm.law = SpringLaw::power_log;
     return;
   }
-  msm.law = table.optional("law", read_name<SpringLaw>).value_or(SpringLaw::hooke);
-  table.refuse_unless(has_exponent(msm.law), {"exponent"}, "left out: it belongs to law = \"power_log\"");
-  if (msm.law == SpringLaw::hooke) return;
+  msm.law = table.optional("law", read_name<SpringLaw>);
+  if (!msm.law && law == DesignLaw::fitted_or_hooke && differ(materials))
+    msm.law = SpringLaw::hooke; // exponents would differ: springs of two laws are assembled
+  const SpringLaw own = law_of(msm, materials.front());
+  table.refuse_unless(has_exponent(own), {"exponent"}, "left out: it belongs to law = \"power_log\"");
+  if (own == SpringLaw::hooke) return;
   if (law == DesignLaw::hooke)
     table.entry("law").refuse(
         fmt::format("\"hooke\" with design = \"{}\", which fits springs of that law", name_of(msm.design)));
-  if (!has_exponent(msm.law)) return;
-  if (law == DesignLaw::fitted)
+  if (!has_exponent(own)) return;
+  if (is_fitted)
     msm.exponent = table.optional("exponent", read_exponent);
   else
     msm.exponent = read_exponent(table.entry("exponent"));
@@ -227,15 +241,6 @@ void read_stiffness(Table& table, Msm& msm) {
     std::copy(k.begin(), k.end(), msm.axis_stiffness.emplace().begin());
   else
     msm.stiffness = {k[0], k[1], k[2]};
-}
-
-/// Poisson's ratio at rest.
-double poissons_ratio_of(const Material& material) {
-  if (const auto* linear = std::get_if<LinearElastic>(&material)) return linear->poissons_ratio;
-  const auto& ogden = std::get<Ogden>(material);
-  if (!ogden.bulk_modulus) return 0.5;
-  const double mu = std::accumulate(ogden.mu.begin(), ogden.mu.end(), 0.0), kappa = *ogden.bulk_modulus;
-  return (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
 }
 
 /// Checks that a design that is asked for suits the material. A default design is refused only when springs
@@ -277,7 +282,11 @@ Msm read_msm(Table& table, const Case& definition) {
   msm.poissons_ratio =
       table.optional("poissons_ratio", Number{"a number above -1 and below 0.5", is_poissons_ratio});
   const auto design = table.optional("design", read_name<Design>);
-  msm.design = design ? *design : default_design(materials_of(definition), msm.poissons_ratio);
+  const bool has_nodal_forces =
+      std::any_of(definition.loads.begin(), definition.loads.end(),
+                  [](const Load& load) { return std::holds_alternative<loads::NodalForce>(load.kind); });
+  msm.design =
+      design ? *design : default_design(materials_of(definition), msm.poissons_ratio, has_nodal_forces);
   for (const std::string& key : keys_of_designs())
     table.refuse_unless(takes(msm.design, key), {key.c_str()},
                         "left out: it belongs to design = " + designs_with(key));
@@ -287,6 +296,8 @@ Msm read_msm(Table& table, const Case& definition) {
   read_relaxation(table, msm);
   msm.split =
       table.optional("split", Number{"a number from 0 to 1", [](double t) { return t >= 0 && t <= 1; }});
+  msm.beta =
+      table.optional("beta", Number{"a number above 0, at most 2", [](double b) { return b > 0 && b <= 2; }});
   read_stiffness(table, msm);
   table.know({"file"});
   if (msm.design == Design::network) {
@@ -294,7 +305,7 @@ Msm read_msm(Table& table, const Case& definition) {
   }
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
-  read_law(table, msm);
+  read_law(table, msm, materials_of(definition));
   read_fit(table, msm);
   table.refuse_unless(definition.dynamics || definition.material_dynamics.density, {"mass"}, has_no_mass);
   msm.mass = table.optional("mass", read_name<PointMass>).value_or(msm.mass);
@@ -326,7 +337,8 @@ void check_region_materials(const Case& definition) {
 
 } // namespace
 
-Design default_design(const std::vector<Material>& materials, std::optional<double> poissons_ratio) {
+Design default_design(const std::vector<Material>& materials, std::optional<double> poissons_ratio,
+                      bool has_nodal_forces) {
   if (!is_isotropic(materials.front())) return Design::transverse;
   bool is_hybrid = false;
   for (const Material& material : materials) {
@@ -336,6 +348,7 @@ Design default_design(const std::vector<Material>& materials, std::optional<doub
     // 0.36 loses its stability at a logarithmic strain of -0.2; below 0.25 the volume term is negative.
     is_hybrid = is_hybrid || nu < 0.25 || (nu > 0.35 && !std::holds_alternative<Ogden>(material));
   }
+  if (!has_nodal_forces) return Design::midline;
   return is_hybrid ? Design::hybrid : Design::matched;
 }
 

@@ -69,11 +69,13 @@ void check_dynamics(Table& root, const Case& definition);
 void read_models(Table& root, Case& result);
 
 /// The design that we recommend for a body of these materials: the default of [msm] without `design`, and
-/// that for `design` without --method. Transversely isotropic: "transverse". Otherwise "matched" where its
-/// lattice is stable over the strains of its exponents: logarithmic strain with nu from 0.25 to 0.35, and
-/// Ogden; else "hybrid", and with nu < 0, which that has not, "moduli".
+/// that for `design` without --method. Transversely isotropic: "transverse"; nu < 0: "moduli"; otherwise
+/// "midline". Under forces on single nodes, which have no continuum limit, springs are held against finite
+/// elements of the same mesh, and "midline" gives way too much at a loaded node: there it is "matched" where
+/// its lattice is stable over the strains of its exponents (logarithmic strain with nu from 0.25 to 0.35, and
+/// Ogden), else "hybrid".
 /// @param materials  at least one    @param poissons_ratio  the design's, in place of the materials'
 Design default_design(const std::vector<Material>& materials,
-                      std::optional<double> poissons_ratio = std::nullopt);
+                      std::optional<double> poissons_ratio = std::nullopt, bool has_nodal_forces = false);
 
 } // namespace springproof::cases

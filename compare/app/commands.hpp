@@ -113,7 +113,7 @@ struct DesignOptions {
   double youngs_modulus = 0,
          poissons_ratio = -2; ///< as if left out: both are required without another material
   double edge = 1;
-  double split = -1; ///< left out
+  double split = -1, beta = -1; ///< left out
   std::string method;
   std::string element = "q1";
   std::vector<double> ogden_mu, ogden_alpha, mooney_rivlin, yeoh;

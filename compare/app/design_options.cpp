@@ -164,6 +164,11 @@ void add_design_options(CLI::App& command, DesignOptions& o) {
                   "0 to 1: t of the shear stiffness in internal diagonals; with " +
                       cases::designs_with("split"))
       ->check(number_between(0, 1));
+  command
+      .add_option("--beta", o.beta,
+                  "above 0, at most 2: resistance to bending over a slender bar's; with " +
+                      cases::designs_with("beta"))
+      ->check(number_between(1e-6, 2));
   command.add_option("--element", o.element, "element of the linear method's K_FEM")
       ->check(CLI::IsMember({"q1", "q1_bbar"}))
       ->capture_default_str();
@@ -228,14 +233,16 @@ msm::DesignRequest request_from(const DesignOptions& o) {
   msm::DesignRequest request = o.case_file.empty() ? from_command_line(o, element) : from_case(o, element);
   if (!o.method.empty()) request.options.design = *cases::value_of<cases::Design>(o.method);
   if (o.split != -1) request.options.split = o.split;
+  if (o.beta != -1) request.options.beta = o.beta;
   for (const std::string& path : o.paths)
     request.options.paths.push_back(*cases::value_of<cases::LoadPath>(path));
   if (!o.strain_range.empty()) request.options.strain_range = {o.strain_range.at(0), o.strain_range.at(1)};
   if (o.springs_only) request.options.has_volume_term = false;
   if (!o.law.empty()) {
-    if (!o.method.empty() && cases::facts_of(request.options.design).law != cases::DesignLaw::fitted)
+    const cases::DesignLaw law = cases::facts_of(request.options.design).law;
+    if (!o.method.empty() && law != cases::DesignLaw::fitted && law != cases::DesignLaw::fitted_or_hooke)
       throw cases::InputError(
-          "--law: belongs to --method multi_load; the law of other springs is in a case file");
+          "--law: belongs to --method midline and multi_load; the law of other springs is in a case file");
     request.options.law = *cases::value_of<cases::SpringLaw>(o.law);
     request.options.exponent.reset();
   }

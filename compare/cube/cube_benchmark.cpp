@@ -43,12 +43,17 @@ LoadSetErrors load_set_errors(const std::string& load_set, const std::vector<Com
   return errors;
 }
 
-/// [msm] of these stiffnesses.
-cases::Msm given(const msm::CellStiffness& k) {
-  cases::Msm options;
-  options.design = cases::Design::given;
-  options.stiffness = scaled(k, 1e3).springs();
-  options.volume_stiffness = k.volume;
+/// [msm] of the attempt's springs, whose fits are not repeated.
+cases::Msm fitted(const DesignAttempt& attempt) {
+  cases::Msm options = attempt.options;
+  if (!attempt.design->springs.cells()) return options;
+  const msm::CellStiffness& k = attempt.design->stiffness;
+  if (k.midline == 0) {
+    options = {};
+    options.design = cases::Design::given;
+    options.stiffness = scaled(k, 1e3).springs();
+    options.volume_stiffness = k.volume;
+  }
   msm::set_law(options, k.exponents);
   return options;
 }
@@ -144,7 +149,7 @@ void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequ
     if (!a.design) continue;
     std::vector<Comparison> tried;
     for (auto& [scene, fem] : tests) {
-      scene.definition.msm = a.design->springs.cells() ? given(a.design->stiffness) : a.options;
+      scene.definition.msm = fitted(a);
       tried.push_back(try_springs(scene, fem));
     }
     a.cube = cube_errors(tried);

@@ -150,6 +150,7 @@ void write_compared(std::ostream& out, const DesignAttempt& a) {
     fmt::print(out, "{:<17}{:>34}{:>9.4g}{:>8.4f}{:>9.4f}{:>7.3f}{:>8}{:>8}\n", a.name, springs,
                m.youngs_modulus, m.poissons_ratio, m.shear_modulus, m.zener, stretch, compression);
   }
+  if (k.midline != 0) fmt::print(out, "{}k_m {:.4g} N/m\n", indent, 1e3 * k.midline);
   if (k.exponents) fmt::print(out, "{}exponents {:.4g}\n", indent, fmt::join(k.exponents->by_kind, ", "));
   if (a.design->springs.terms()) write_paragraph(out, springs_text(*a.design), indent, indent);
   write_warnings(out, *a.design);
@@ -183,14 +184,25 @@ std::string reason_for(const DesignAttempt& by_default, const DesignAttempt& bes
 
 std::string default_text(const DesignAttempt& best, const std::vector<DesignAttempt>& attempts,
                          const msm::DesignRequest& request) {
-  const std::string name =
-      cases::name_of(cases::default_design({request.material}, request.options.poissons_ratio));
-  if (name == best.name) return " A case that names no design takes it too.";
+  const auto default_name = [&](bool has_nodal_forces) {
+    return cases::name_of(
+        cases::default_design({request.material}, request.options.poissons_ratio, has_nodal_forces));
+  };
+  const std::string name = default_name(true), other = default_name(false);
+  const std::string without_forces =
+      other == name ? ""
+                    : fmt::format(" A case without them takes {}, which is nearer to the limit of fine "
+                                  "meshes: these forces have none.",
+                                  other);
+  if (name == best.name)
+    return " A case of forces on nodes, like the cube's, that names no design takes it too." + without_forces;
   for (const DesignAttempt& a : attempts)
     if (a.name == name && a.cube && a.cube->worst())
-      return fmt::format(" A case that names no design takes {}, with {:.2f} %: {}.", name, *a.cube->worst(),
-                         reason_for(a, best));
-  return fmt::format(" A case that names no design takes {}.", name);
+      return fmt::format(" A case of forces on nodes, like the cube's, that names no design takes {}, with "
+                         "{:.2f} %: {}.",
+                         name, *a.cube->worst(), reason_for(a, best)) +
+             without_forces;
+  return fmt::format(" A case of forces on nodes that names no design takes {}.", name) + without_forces;
 }
 
 } // namespace
@@ -206,6 +218,10 @@ void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
   else
     fmt::print(out, "  k_e, k_f, k_d    {:.6g} N/m\n", fmt::join(scaled(k, 1e3).springs(), ", "));
   if (k.volume != 0) fmt::print(out, "  k_v              {:.6g} MPa\n", k.volume);
+  if (k.midline != 0)
+    fmt::print(out, "  k_m              {:.6g} N/m, where a body is {}\n", 1e3 * k.midline,
+               attempt.options.beta ? fmt::format("given beta = {:g}", *attempt.options.beta)
+                                    : "many cells thick (beta = 0.8)");
   if (k.exponents) fmt::print(out, "  exponents        {:.6g}\n", fmt::join(k.exponents->by_kind, ", "));
   if (design.residual) fmt::print(out, "  residual         {:.6g}\n", *design.residual);
   if (design.by_fibre)

@@ -44,6 +44,50 @@ std::ptrdiff_t n_power_log(const msm::Lattice& lattice) {
                        [](const msm::Link& link) { return exponent_of(link.spring).has_value(); });
 }
 
+/// Finds every link's kind among the springs of the mesh's cells: 1 an edge, 2 a face diagonal, 3 an internal
+/// diagonal; 0 for a link of a network that is none of these.
+std::vector<int> kinds_of_links(const cases::HexMesh& mesh, const std::vector<msm::Link>& links) {
+  struct Pair {
+    int i, j, kind;
+    bool operator<(const Pair& other) const { return std::tie(i, j) < std::tie(other.i, other.j); }
+  };
+  std::vector<Pair> pairs;
+  const auto add = [&](const std::array<int, 8>& cell, const auto& of_kind, int kind) {
+    for (const auto& vertices : of_kind) {
+      const auto [i, j] = cases::sorted(cases::pick(cell, vertices));
+      pairs.push_back({i, j, kind});
+    }
+  };
+  for (const std::array<int, 8>& cell : mesh.cells) {
+    add(cell, cases::cell_edges, 1);
+    add(cell, cases::cell_face_diagonals, 2);
+    add(cell, cases::cell_internal_diagonals, 3);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  std::vector<int> kinds;
+  for (const msm::Link& link : links) {
+    const Pair wanted{link.i, link.j, 0};
+    const auto found = std::lower_bound(pairs.begin(), pairs.end(), wanted);
+    kinds.push_back(found != pairs.end() && !(wanted < *found) ? found->kind : 0);
+  }
+  return kinds;
+}
+
+/// Midlines, and what a body without them would have lost.
+std::string midlines_text(const msm::Problem& problem) {
+  const msm::Lattice& lattice = problem.lattice;
+  const std::vector<int> kinds = kinds_of_links(problem.mesh, lattice.links);
+  double of_edges = 0, of_midlines = 0;
+  for (std::size_t n = 0; n < kinds.size(); ++n)
+    if (kinds[n] == 1)
+      of_edges += lattice.links[n].spring.stiffness * std::pow(lattice.links[n].spring.rest_length, 2);
+  for (const msm::Midline& m : lattice.midlines)
+    of_midlines += m.spring.stiffness * std::pow(m.spring.rest_length, 2);
+  return fmt::format(
+      "{} springs between the centres of faces, which have {:.0f} % of the stiffness along the cells' edges",
+      lattice.midlines.size(), 100 * of_midlines / (of_edges + of_midlines));
+}
+
 /// What these springs have that a target cannot say.
 std::vector<std::string> inexpressible(ExportTarget target, const msm::Problem& problem) {
   const msm::Lattice& lattice = problem.lattice;
@@ -51,6 +95,7 @@ std::vector<std::string> inexpressible(ExportTarget target, const msm::Problem& 
   if (target != ExportTarget::csv && !lattice.tetrahedra.empty())
     all.push_back(fmt::format("{} tetrahedra of biquadratic springs", lattice.tetrahedra.size()));
   if (target != ExportTarget::sofa) return all;
+  if (!lattice.midlines.empty()) all.push_back(midlines_text(problem));
   if (!lattice.volume_cells.empty())
     all.push_back(fmt::format("the volume terms of {} cells", lattice.volume_cells.size()));
   if (const auto n = n_power_log(lattice); n > 0) all.push_back(fmt::format("{} power-log springs", n));
@@ -88,6 +133,21 @@ void write_volume_terms_csv(const std::string& folder, const msm::Lattice& latti
   });
 }
 
+void write_midlines_csv(const std::string& folder, const msm::Lattice& lattice) {
+  write_csv_file(folder + "/midlines.csv", [&](CsvWriter& csv) {
+    std::vector<std::string> header{"stiffness_N_per_m", "rest_length_mm", "exponent"};
+    for (const char* end : {"a", "b"})
+      for (int v = 0; v < 4; ++v) header.push_back(fmt::format("node_{}{}", end, v));
+    csv.row(header);
+    for (const msm::Midline& m : lattice.midlines) {
+      std::vector<int> ends[2]; // the means of four nodes each
+      for (std::size_t v = 0; v < 8; ++v) ends[m.part(v) > 0 ? 1 : 0].push_back(m.nodes[v]);
+      csv.row(exact(1e3 * m.spring.stiffness), exact(m.spring.rest_length),
+              exponent_of(m.spring) ? exact(m.spring.law.parameter) : "", exact(ends[0]), exact(ends[1]));
+    }
+  });
+}
+
 void write_tetrahedra_csv(const std::string& folder, const msm::Lattice& lattice) {
   std::vector<std::string> header;
   for (int v = 0; v < 4; ++v) header.push_back(fmt::format("node_{}", v));
@@ -108,8 +168,10 @@ std::vector<std::string> write_csv_files(const std::string& folder, const msm::P
   write_nodes_csv(folder, problem);
   write_volume_terms_csv(folder, lattice);
   write_tetrahedra_csv(folder, lattice);
+  if (!lattice.midlines.empty()) write_midlines_csv(folder, lattice);
   write_springs_csv(folder, lattice);
-  const std::size_t n_others = lattice.volume_cells.size() + lattice.tetrahedra.size();
+  const std::size_t n_others =
+      lattice.volume_cells.size() + lattice.tetrahedra.size() + lattice.midlines.size();
   const auto n_negative = std::count_if(lattice.links.begin(), lattice.links.end(),
                                         [](const msm::Link& link) { return link.spring.stiffness < 0; });
   std::vector<std::string> said{
@@ -117,40 +179,14 @@ std::vector<std::string> write_csv_files(const std::string& folder, const msm::P
       fmt::format("nodes.csv: {} nodes with supports and loads", lattice.rest.size()),
       fmt::format("volume_terms.csv: {} cells", lattice.volume_cells.size()),
       fmt::format("tetrahedra.csv: {} tetrahedra of biquadratic springs", lattice.tetrahedra.size())};
+  if (!lattice.midlines.empty())
+    said.push_back(
+        fmt::format("midlines.csv: {} springs between means of four nodes", lattice.midlines.size()));
   if (n_others > 0) said.push_back("design = \"network\" reads springs.csv alone, not the other terms");
   if (n_negative > 0)
     said.push_back(
         fmt::format("{} springs have a negative stiffness, which design = \"network\" refuses", n_negative));
   return said;
-}
-
-/// Finds every link's kind among the springs of the mesh's cells: 1 an edge, 2 a face diagonal, 3 an internal
-/// diagonal; 0 for a link of a network that is none of these.
-std::vector<int> kinds_of_links(const cases::HexMesh& mesh, const std::vector<msm::Link>& links) {
-  struct Pair {
-    int i, j, kind;
-    bool operator<(const Pair& other) const { return std::tie(i, j) < std::tie(other.i, other.j); }
-  };
-  std::vector<Pair> pairs;
-  const auto add = [&](const std::array<int, 8>& cell, const auto& of_kind, int kind) {
-    for (const auto& vertices : of_kind) {
-      const auto [i, j] = cases::sorted(cases::pick(cell, vertices));
-      pairs.push_back({i, j, kind});
-    }
-  };
-  for (const std::array<int, 8>& cell : mesh.cells) {
-    add(cell, cases::cell_edges, 1);
-    add(cell, cases::cell_face_diagonals, 2);
-    add(cell, cases::cell_internal_diagonals, 3);
-  }
-  std::sort(pairs.begin(), pairs.end());
-  std::vector<int> kinds;
-  for (const msm::Link& link : links) {
-    const Pair wanted{link.i, link.j, 0};
-    const auto found = std::lower_bound(pairs.begin(), pairs.end(), wanted);
-    kinds.push_back(found != pairs.end() && !(wanted < *found) ? found->kind : 0);
-  }
-  return kinds;
 }
 
 std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Problem& problem) {
@@ -181,6 +217,8 @@ std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Pr
   if (!lattice.volume_cells.empty())
     said.push_back(fmt::format("not in it: the volume terms of {} cells (--to csv writes them)",
                                lattice.volume_cells.size()));
+  if (!lattice.midlines.empty())
+    said.push_back(fmt::format("not in it: {} (--to csv writes them)", midlines_text(problem)));
   return said;
 }
 

@@ -11,7 +11,7 @@ const quantities = [["small", "small loads"], ["large", "large loads"], ["volume
 const is_stable = (a) => a.small.stable && a.large.stable;
 const advice_at = (ratio, design) => advice.find((a) => a.poissons_ratio === ratio && a.design === design);
 
-// A method's stiffnesses at a ratio, from those of the hundredths around it: [k_e, k_f, k_d, k_v, exponents if any], over E L0 and E.
+// A method's stiffnesses at a ratio, from those of the hundredths around it: [k_e, k_f, k_d, k_v, k_m, exponents if any], over E L0 and E.
 // The linear method's stiffnesses and the others' volume terms grow as 1/(1 - 2 nu): linear is their product with 1 - 2 nu.
 function stiffness_at(design, ratio) {
   const rows = report.designed[design], exact = rows.find((row) => Math.abs(row[0] - ratio) < 1e-9);
@@ -19,10 +19,10 @@ function stiffness_at(design, ratio) {
   const low = rows.filter((row) => row[0] < ratio).pop(), high = rows.find((row) => row[0] > ratio);
   if (!low || !high || high[0] - low[0] > 0.015) return null;
   const share = (ratio - low[0]) / (high[0] - low[0]);
-  const scaled = (row, i) => row[i] * (i < 5 ? 1 - 2 * row[0] : 1);
+  const scaled = (row, i) => row[i] * (i < 6 ? 1 - 2 * row[0] : 1);
   return low.slice(1).map((_, at) => {
     const i = at + 1, value = (1 - share) * scaled(low, i) + share * scaled(high, i);
-    return i < 5 ? value / (1 - 2 * ratio) : value;
+    return i < 6 ? value / (1 - 2 * ratio) : value;
   });
 }
 
@@ -81,7 +81,7 @@ function calculator() {
     const stiffness = (index, what, value, unit) => make("div", null, make("dt", null, symbol("k", index), " ", what),
       make("dd", { "data-symbol": "k_" + index }, `${Number(value.toPrecision(4))} ${unit}`));
     const [e, f, d] = best.stiffness.slice(0, 3).map((over) => 1000 * young * edge * over);
-    const [volume, ...exponents] = best.stiffness.slice(3);
+    const [volume, midline, ...exponents] = best.stiffness.slice(3);
     output.replaceChildren(
       make("p", { class: "answer" }, "Use ", make("b", { "data-design": best.design }, in_words(best.design)), " springs",
         best.stable ? "" : ", which are unstable in a test", ". Errors to expect:"),
@@ -89,6 +89,7 @@ function calculator() {
         tile("springs’ time", duration(best.msm_seconds), `finite elements: ${duration(best.fem_seconds)}`)),
       make("dl", null, stiffness("e", "edges", e, "N/m"), stiffness("f", "faces", f, "N/m"),
         stiffness("d", "diagonals", d, "N/m"), stiffness("v", "volume", young * volume, "MPa"),
+        midline > 0 && stiffness("m", "midlines, many cells across", 1000 * young * edge * midline, "N/m"),
         exponents.length > 0 && make("div", null, make("dt", null, "exponents of their power law"), make("dd", {
           "data-symbol": "exponents" }, exponents.map((p) => number(p, 3)).join(", ")))),
       quiet(lower === upper ? "" : make("strong", null, `Interpolated: errors are tabulated at ν = ${lower} ` +

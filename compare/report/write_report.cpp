@@ -111,7 +111,7 @@ Json designed_to_json(const std::vector<Advice>& advice) {
         const msm::CellStiffness k = msm::design(design_request(cases::LinearElastic{1, nu}, msm::cube(1),
                                                                 options, cases::Element::q1))
                                          .stiffness;
-        Json row{nu, k.edge, k.face_diagonal, k.internal_diagonal, k.volume};
+        Json row{nu, k.edge, k.face_diagonal, k.internal_diagonal, k.volume, k.midline};
         if (const auto& p = k.exponents)
           for (const double exponent : p->by_kind) row.push_back(exponent);
         for (Json& value : row) value = std::stod(fmt::format("{:.6g}", value.get<double>()));

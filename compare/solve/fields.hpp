@@ -8,12 +8,14 @@ namespace cereal {
 
 SPRINGPROOF_FIELDS(springproof::msm::Exponents, by_kind, law)
 SPRINGPROOF_FIELDS(springproof::msm::SpringLaw, kind, parameter)
-SPRINGPROOF_FIELDS(springproof::msm::CellStiffness, edge, face_diagonal, internal_diagonal, volume, exponents)
+SPRINGPROOF_FIELDS(springproof::msm::CellStiffness, edge, face_diagonal, internal_diagonal, volume, midline,
+                   exponents)
 SPRINGPROOF_FIELDS(springproof::msm::LatticeModuli, c11, c12, c44, zener, youngs_modulus, poissons_ratio,
                    shear_modulus)
 SPRINGPROOF_FIELDS(springproof::msm::CellSpring, vertices, stiffness, law)
 SPRINGPROOF_FIELDS(springproof::msm::CellTetrahedron, vertices, lambda, mu)
-SPRINGPROOF_FIELDS(springproof::msm::CellTerms, springs, tetrahedra, volume, is_logarithmic)
+SPRINGPROOF_FIELDS(springproof::msm::CellMidline, axis, stiffness, law)
+SPRINGPROOF_FIELDS(springproof::msm::CellTerms, springs, tetrahedra, midlines, volume, is_logarithmic)
 SPRINGPROOF_FIELDS(springproof::msm::BodyTerms, kinds, kind_of_cell, boundary, planes_of_node)
 SPRINGPROOF_FIELDS(springproof::msm::SpringBody, kind)
 SPRINGPROOF_FIELDS(springproof::mechanics::TransverseModuli, c11, c12, c13, c33, c44, c66, bulk_modulus)

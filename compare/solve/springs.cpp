@@ -1,6 +1,7 @@
 #include "compare/solve/springs.hpp"
 
 #include "cases/scene/regions.hpp"
+#include "cases/scene/thickness.hpp"
 #include "compare/solve/solve.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "mechanics/larger.hpp"
@@ -30,18 +31,26 @@ DesignedCells design_cells(const cases::Scene& scene) {
   const bool is_given = cases::facts_of(scene.definition.msm.design).source == cases::DesignSource::file;
   const bool follows_shape = !scene.mesh.grid && !is_assembled(scene) && !is_given;
   const std::vector<cases::Material> materials = cases::materials_of(scene.definition);
+  const cases::Msm& given = scene.definition.msm;
+  const std::vector<int> across =
+      given.design == cases::Design::midline && !given.beta
+          ? cases::cells_across(scene.mesh, scene.definition.symmetry, msm::DesignRequest::many_cells)
+          : std::vector<int>();
   DesignedCells all;
   std::map<int, std::size_t> of_material;
+  std::map<std::pair<int, int>, std::size_t> of_cell; // by material and thickness
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
-    const int material = is_given ? 0 : cases::material_of(scene, c);
-    const auto [known, is_new] = of_material.try_emplace(material, all.designs.size());
+    const int material = is_given ? 0 : cases::material_of(scene, c), n = across.empty() ? 0 : across[c];
+    const auto [known, is_new] = of_cell.try_emplace({material, n}, all.designs.size());
     if (is_new || follows_shape) {
-      cases::Msm options = scene.definition.msm;
-      if (!is_new) // the exponents of the material's other cells: no second fit
-        msm::set_law(options, all.designs[known->second].stiffness.exponents);
+      const auto [first, is_first] = of_material.try_emplace(material, all.designs.size());
+      msm::DesignRequest request = design_request(materials[cases::index(cases::material_of(scene, c))],
+                                                  cases::cell_vertices(scene.mesh, c), given);
+      if (n > 0) request.cells_across = n;
+      if (!is_first) // the exponents of the material's other cells: no second fit
+        msm::set_law(request.options, all.designs[first->second].stiffness.exponents);
       known->second = all.designs.size();
-      all.designs.push_back(msm::design(design_request(materials[cases::index(cases::material_of(scene, c))],
-                                                       cases::cell_vertices(scene.mesh, c), options)));
+      all.designs.push_back(msm::design(request));
     }
     all.of_cell.push_back(known->second);
   }
@@ -150,10 +159,13 @@ bool is_assembled(const cases::Scene& scene) {
   const auto& grid = scene.mesh.grid;
   const bool has_cubes =
       !grid || ((grid->spacing.array() - grid->spacing[0]).abs() <= 1e-9 * grid->spacing[0]).all();
-  const bool follows_cells =
-      options.design == D::moduli || options.design == D::hybrid || options.design == D::matched;
+  const bool follows_cells = options.design == D::moduli || options.design == D::hybrid ||
+                             options.design == D::matched || options.design == D::midline;
+  const auto materials = cases::materials_of(scene.definition);
+  const bool has_fibre =
+      options.design == D::midline && !std::all_of(materials.begin(), materials.end(), cases::is_isotropic);
   const bool is_by_axis =
-      (options.design == D::given && options.axis_stiffness) || (follows_cells && !has_cubes);
+      (options.design == D::given && options.axis_stiffness) || has_fibre || (follows_cells && !has_cubes);
   return is_by_axis || cases::facts_of(options.design).cells != cases::DesignCells::four_stiffnesses;
 }
 

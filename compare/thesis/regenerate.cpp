@@ -155,8 +155,9 @@ std::vector<std::string> other_designs() {
 msm::CellStiffness over_modulus_and_edge(const msm::CellStiffness& k, const cases::Scene& scene) {
   const double youngs_modulus = std::get<cases::LinearElastic>(scene.definition.material).youngs_modulus;
   const double scale = youngs_modulus * msm::cube_edge(cases::cell_vertices(scene.mesh, 0));
-  return {k.edge / scale, k.face_diagonal / scale, k.internal_diagonal / scale, k.volume / youngs_modulus,
-          k.exponents};
+  msm::CellStiffness unit = scaled(k, 1 / scale);
+  unit.volume = k.volume / youngs_modulus;
+  return unit;
 }
 
 Advice advise_on(const AdviceQuestion& asked, const Solutions& solutions) {

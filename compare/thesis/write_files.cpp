@@ -247,10 +247,7 @@ void write_recommendation(std::ostream& out, const Advice& a) {
   const double youngs_modulus = 0.05; // MPa, soft tissue; of a cell of 1 mm
   std::string springs;
   if (const auto& k = a.stiffness)
-    springs =
-        ". E = 50 kPa, L0 = 1 mm: " +
-        stiffness_text({youngs_modulus * k->edge, youngs_modulus * k->face_diagonal,
-                        youngs_modulus * k->internal_diagonal, youngs_modulus * k->volume, k->exponents});
+    springs = ". E = 50 kPa, L0 = 1 mm: " + stiffness_text(scaled(*k, youngs_modulus));
   fmt::print(
       out,
       "  nu = {:g}: use {}{}; expect errors up to {:.1f} % under the small loads, {:.1f} % under the large "

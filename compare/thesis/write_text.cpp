@@ -81,7 +81,7 @@ Json worst_to_json(const CubeErrors& cube) {
 
 /// The design that a case of this Poisson's ratio takes when it names none, among those that were measured.
 const Advice* default_at(const std::vector<Advice>& advice, double poissons_ratio) {
-  const cases::Design design = cases::default_design({cases::LinearElastic{1, poissons_ratio}});
+  const cases::Design design = cases::default_design({cases::LinearElastic{1, poissons_ratio}}, {}, true);
   const auto found = std::find_if(advice.begin(), advice.end(), [&](const Advice& a) {
     return a.poissons_ratio == poissons_ratio && a.design == cases::name_of(design);
   });

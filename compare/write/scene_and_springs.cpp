@@ -93,6 +93,9 @@ std::string cell_text(const msm::CellTerms& terms) {
   for (const auto& [spring, n] : n_of)
     parts.push_back(
         fmt::format("{} {} of {}", n, kind_names[static_cast<std::size_t>(spring.first - 1)], spring.second));
+  for (const msm::CellMidline& midline : terms.midlines)
+    parts.push_back(
+        fmt::format("a midline along {} of {:.4g} N/m", "xyz"[midline.axis], 1e3 * midline.stiffness));
   if (!terms.tetrahedra.empty())
     parts.push_back(fmt::format("{} tetrahedra of biquadratic springs", terms.tetrahedra.size()));
   if (terms.volume != 0) parts.push_back(fmt::format("k_v = {:.4g} MPa", terms.volume));
@@ -101,16 +104,20 @@ std::string cell_text(const msm::CellTerms& terms) {
 
 Json cell_to_json(const msm::BodyTerms& terms) {
   const msm::CellTerms& cell = terms.kinds.front();
-  Json springs = Json::array(), tetrahedra = springs;
+  Json springs = Json::array(), tetrahedra = springs, midlines = springs;
   for (const msm::CellSpring& spring : cell.springs) {
     springs.push_back({{"vertices", spring.vertices}, {"stiffness_N_per_m", 1e3 * spring.stiffness}});
     if (const char* name = msm::parameter_name(spring.law.kind)) springs.back()[name] = spring.law.parameter;
   }
+  for (const msm::CellMidline& midline : cell.midlines)
+    midlines.push_back(
+        {{"axis", std::string(1, "xyz"[midline.axis])}, {"stiffness_N_per_m", 1e3 * midline.stiffness}});
   for (const msm::CellTetrahedron& tetrahedron : cell.tetrahedra)
     tetrahedra.push_back(
         {{"vertices", tetrahedron.vertices}, {"lambda_MPa", tetrahedron.lambda}, {"mu_MPa", tetrahedron.mu}});
   return {{"springs", springs},
           {"tetrahedra", tetrahedra},
+          {"midlines", midlines},
           {"mirrored_from_cell_to_cell", terms.kinds.size() > 1},
           {"boundary", cases::name_of(terms.boundary)}};
 }
@@ -154,6 +161,7 @@ Json loads_to_json(const cases::Scene& scene) {
 
 std::string stiffness_text(const msm::CellStiffness& k) {
   return fmt::format("k_e, k_f, k_d = {:.4g} N/m", fmt::join(scaled(k, 1e3).springs(), ", ")) +
+         (k.midline != 0 ? fmt::format(", k_m = {:.4g} N/m", 1e3 * k.midline) : "") +
          (k.volume != 0 ? fmt::format(", k_v = {:.4g} MPa", k.volume) : "") + exponents_text(k);
 }
 
@@ -170,6 +178,7 @@ Json springs_to_json(const msm::DesignResult& design) {
   const msm::CellStiffness& k = design.stiffness;
   Json springs{{"stiffness_N_per_m", nullptr}, {"volume_stiffness_MPa", k.volume}};
   if (design.springs.cells()) springs["stiffness_N_per_m"] = scaled(k, 1e3).springs();
+  if (k.midline != 0) springs["midline_stiffness_N_per_m"] = 1e3 * k.midline;
   if (k.exponents) springs["exponents"] = k.exponents->by_kind;
   if (const msm::BodyTerms* terms = design.springs.terms()) {
     springs["volume_stiffness_MPa"] = terms->kinds.front().volume;

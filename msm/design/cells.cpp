@@ -180,13 +180,15 @@ struct NodeSpring {
   Spring spring;
 };
 
-std::vector<NodeSpring> node_springs(const CellStiffness& k, double edge) {
+/// The springs of a node. In a homogeneous deformation midlines are as long as edges: four times their
+/// stiffness counts as the edges'.
+std::vector<NodeSpring> node_springs(const CellStiffness& k, double edge, double of_midlines = 0) {
   std::vector<NodeSpring> springs;
   const auto add = [&](double stiffness, int n_axes, std::initializer_list<Eigen::Vector3d> directions) {
     for (const Eigen::Vector3d& d : directions)
       springs.push_back({d, {stiffness, edge * d.norm(), law_of(k.exponents, n_axes)}});
   };
-  add(4 * k.edge, 1, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  add(4 * k.edge + of_midlines, 1, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   add(2 * k.face_diagonal, 2, {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, 0, -1}, {0, 1, 1}, {0, 1, -1}});
   add(k.internal_diagonal, 3, {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}});
   return springs;
@@ -234,21 +236,21 @@ DynamicalMatrix dynamical_matrix(const CellStiffness& stiffness, double edge, co
     matrix.block(d) -= block;
     matrix.block(-d) -= block;
   }
-  if (stiffness.volume == 0) return matrix;
   // Every node is vertex a of one cell and vertex b of another: the second derivatives of one cell's energy,
   // gathered by X_b - X_a.
   const CellPositions vertices = cube(1);
   CellPositions x;
   for (std::size_t v = 0; v < 8; ++v) x[v] = edge * f * vertices[v];
-  const double rest_volume = edge * edge * edge;
-  const auto gradient = trilinear_volume_gradient(x);
-  const auto second = trilinear_volume_second_derivative(x);
-  const VolumeLaw law = volume_law_of(stiffness, trilinear_volume(x) / rest_volume);
-  const double pressure = stiffness.volume * law.pressure, slope = stiffness.volume / rest_volume * law.slope;
-  for (std::size_t a = 0; a < 8; ++a)
-    for (std::size_t b = 0; b < 8; ++b)
-      matrix.block(vertices[b] - vertices[a]) +=
-          slope * gradient[a] * gradient[b].transpose() + pressure * second[a][b];
+  const auto add = [&](const auto& term) {
+    const auto block = term.tangent(x, Clamp::no);
+    for (std::size_t a = 0; a < 8; ++a)
+      for (std::size_t b = 0; b < 8; ++b) matrix.block(vertices[b] - vertices[a]) += block(a, b);
+  };
+  if (stiffness.volume != 0)
+    add(VolumeCell{
+        {}, stiffness.volume, edge * edge * edge, has_logarithmic_volume(kind_of(stiffness.exponents))});
+  for (int axis = 0; axis < 3 && stiffness.midline != 0; ++axis)
+    add(Midline{{}, axis, {stiffness.midline, edge, law_of(stiffness.exponents, 1)}});
   return matrix;
 }
 
@@ -305,7 +307,8 @@ double last_stable(double start, double end, const std::function<bool(double)>& 
 
 double lattice_energy_density(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
   double energy = 0;
-  for (const auto& [d, spring] : node_springs(stiffness, edge)) energy += spring_energy(edge * f * d, spring);
+  for (const auto& [d, spring] : node_springs(stiffness, edge, stiffness.midline))
+    energy += spring_energy(edge * f * d, spring);
   return energy / (edge * edge * edge) +
          stiffness.volume * volume_law_of(stiffness, f.determinant()).integral;
 }
@@ -313,7 +316,7 @@ double lattice_energy_density(const CellStiffness& stiffness, double edge, const
 Eigen::Matrix3d lattice_stress(const CellStiffness& stiffness, double edge, const Eigen::Matrix3d& f) {
   const double pressure = stiffness.volume * volume_law_of(stiffness, f.determinant()).pressure;
   Eigen::Matrix3d stress = pressure * cofactor(f);
-  for (const auto& [d, spring] : node_springs(stiffness, edge))
+  for (const auto& [d, spring] : node_springs(stiffness, edge, stiffness.midline))
     stress += spring_force(edge * f * d, spring) * d.transpose() / (edge * edge);
   return stress;
 }

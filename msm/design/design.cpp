@@ -1,11 +1,9 @@
 #include "msm/design/design.hpp"
 
 #include "cases/case/error.hpp"
-#include "mechanics/elastic_moduli.hpp"
-#include "msm/design/cells.hpp"
+#include "msm/design/midline.hpp"
 #include "msm/design/multi_load.hpp"
 #include "msm/design/small_strain.hpp"
-#include "msm/design/uniaxial.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +14,6 @@ namespace springproof::msm {
 namespace {
 
 constexpr double newton_per_metre = 1e-3; // N/mm
-
-/// The share of the shear stiffness that the internal diagonals carry when the case does not say.
-/// Small-strain accuracy in torsion asks for much of it (0.8); but the lattice loses its stability the
-/// sooner, the more they carry: with 0.8 at a stretch of about 1.4, with 0.5 at 2.7. So a material for large
-/// strains gets less.
-constexpr double small_strain_split = 0.8;
-constexpr double large_strain_split = 0.5;
 
 /// Range of axial logarithmic strain in which the thesis fits its references (section 5.2.2).
 constexpr double largest_ogden_strain = 0.4;
@@ -40,83 +31,6 @@ constexpr std::array<double, 2> matched_range = {-0.2, 0.2};
 /// Relative errors of energies from which a lattice's distance from its material is told: a tenth of the
 /// errors that designs of isotropic materials have on a body.
 constexpr double told_misfit = 2e-3;
-
-/// lambda/mu of the volume term for an incompressible material: volumes hold to about 0.1 %, and Newton's
-/// method still converges in few steps.
-constexpr double incompressible_lambda_over_mu = 200;
-
-[[noreturn]] void refuse(const DesignRequest& request, const std::string& problem) {
-  throw cases::InputError(request.options.where, problem);
-}
-
-template<class Value>
-Value by_material(const DesignRequest& request, const Value& ogden, const Value& linear_elastic) {
-  return std::holds_alternative<cases::Ogden>(request.material) ? ogden : linear_elastic;
-}
-
-/// The small-strain material that the design is made for: options.poissons_ratio replaces the material's own,
-/// E stays.
-/// @throws InputError unless E > 0 and nu lies in [lowest, 0.5)
-cases::LinearElastic designed_material(const DesignRequest& request, double lowest_poissons_ratio) {
-  cases::LinearElastic material = small_strain_material(request.material);
-  const cases::Msm& options = request.options;
-  if (options.poissons_ratio) material.poissons_ratio = *options.poissons_ratio;
-  if (!(material.youngs_modulus > 0) || !std::isfinite(material.youngs_modulus))
-    refuse(request,
-           fmt::format("Young's modulus {:f} MPa: must be positive and finite", material.youngs_modulus));
-  if (!(material.poissons_ratio >= lowest_poissons_ratio && material.poissons_ratio < 0.5))
-    refuse(request, fmt::format("Poisson's ratio {:f}: design = \"{}\" takes {:f} <= nu < 0.5; "
-                                "msm.poissons_ratio (of `design`: --poisson) designs from another one",
-                                material.poissons_ratio, name_of(options.design), lowest_poissons_ratio));
-  return material;
-}
-
-/// Edge of the request's cell.  @throws InputError when it is not a cube
-double required_cube_edge(const DesignRequest& request) {
-  const double edge = cube_edge(request.cell);
-  if (edge > 0) return edge;
-  refuse(request, fmt::format("design = \"{}\" is for cubical cells aligned with the axes",
-                              name_of(request.options.design)));
-}
-
-/// Whether the design finds the exponents of power-log springs.
-bool finds_exponents(const cases::Msm& options) {
-  const cases::DesignLaw law = cases::facts_of(options.design).law;
-  return law == cases::DesignLaw::power_log ||
-         (law == cases::DesignLaw::fitted && options.law == cases::SpringLaw::power_log && !options.exponent);
-}
-
-/// The law that a case gives its springs; nothing: Hooke's, or the design finds the exponents.
-std::optional<Exponents> law_of(const cases::Msm& options) {
-#pragma GCC diagnostic error "-Wswitch" // a law that is forgotten here must not compile
-  switch (options.law) {
-  case LawKind::hooke:
-    return std::nullopt;
-  case LawKind::power_log:
-    break;
-  }
-  if (!options.exponent) return std::nullopt;
-  return Exponents{*options.exponent, options.law};
-}
-
-double split(const DesignRequest& request) {
-  const bool keeps_its_curve = finds_exponents(request.options);
-  const double t = request.options.split.value_or(
-      keeps_its_curve ? small_strain_split : by_material(request, large_strain_split, small_strain_split));
-  if (t >= 0 && t <= 1) return t;
-  refuse(request, fmt::format("split = {:f}: must lie in [0, 1]", t));
-}
-
-bool is_incompressible(const DesignRequest& request) {
-  const auto* ogden = std::get_if<cases::Ogden>(&request.material);
-  return ogden != nullptr && !ogden->bulk_modulus && !request.options.poissons_ratio;
-}
-
-mechanics::ElasticModuli elastic_moduli(const DesignRequest& request) {
-  if (!is_incompressible(request)) return mechanics::elastic_moduli(designed_material(request, -1));
-  const double mu = small_strain_material(request.material).youngs_modulus / 3;
-  return {incompressible_lambda_over_mu * mu, mu, (incompressible_lambda_over_mu + 2. / 3) * mu};
-}
 
 DesignResult of_terms(std::vector<CellTerms> kinds) {
   DesignResult result;
@@ -188,7 +102,7 @@ DesignResult from_multi_load(const DesignRequest& request) {
       settings.paths.push_back(*cases::value_of<cases::LoadPath>(name));
   settings.weights = options.weights;
   if (settings.weights.empty()) settings.weights.assign(settings.paths.size(), 1);
-  const auto range = options.strain_range.value_or(options.law == cases::SpringLaw::power_log
+  const auto range = options.strain_range.value_or(law_kind(request) == LawKind::power_log
                                                        ? matched_range
                                                        : by_material(request, ogden_range, linear_range));
   settings.lowest_strain = range[0];
@@ -197,13 +111,13 @@ DesignResult from_multi_load(const DesignRequest& request) {
   settings.incompressible_lambda = elastic_moduli(request).lambda;
   settings.split = split(request); // free, it would take all internal or all face diagonals: homogeneous
                                    // states hardly tell them apart
-  settings.exponents = law_of(options);
-  if (!finds_exponents(options)) {
+  settings.exponents = law_of(request);
+  if (!finds_exponents(request)) {
     const MultiLoadFit fit = multi_load_method(material, edge, settings);
     return {fit.stiffness, fit.objective};
   }
   const mechanics::ElasticModuli moduli = elastic_moduli(request);
-  const double nu = moduli.lambda / (2 * (moduli.lambda + moduli.mu));
+  const double nu = mechanics::linear_elastic(moduli.mu, moduli.kappa).poissons_ratio;
   const MultiLoadFit fit = multi_load_with_exponents(
       material, edge, settings,
       closed_form_exponent(second_order_coefficient(material, nu), moduli, *settings.split));
@@ -243,20 +157,19 @@ DesignResult from_transverse(const DesignRequest& request) {
   const auto& material = std::get<cases::TransverselyIsotropic>(request.material);
   const auto axis = cases::axis_along(material.fibre);
   if (!axis)
-    refuse(request,
-           fmt::format("design = \"transverse\": material.fibre is ({:g}, {:g}, {:g}), must lie along "
-                       "an axis of the grid: \"x\" | \"y\" | \"z\"",
-                       material.fibre.x(), material.fibre.y(), material.fibre.z()));
+    refuse(request, fmt::format("design = \"{}\": material.fibre is ({:g}, {:g}, {:g}), must lie along "
+                                "an axis of the grid: \"x\" | \"y\" | \"z\"",
+                                cases::name_of(request.options.design), material.fibre.x(),
+                                material.fibre.y(), material.fibre.z()));
   const double edge = required_cube_edge(request);
   const NearestModuli nearest = nearest_lattice_moduli(mechanics::transverse_moduli(material));
   const AxisStiffness k = stiffness_by_axis(nearest.moduli, split(request), static_cast<int>(*axis), edge);
   const CellTerms terms = terms_by_axis(k);
   if (signs_at_rest(cell_stiffness_matrix(request.cell, terms)).n_negative > 0)
-    refuse(request,
-           fmt::format("design = \"transverse\": springs cannot follow this material. Their moduli have "
-                       "C12 - C66 = C13 - C44; the nearest ones err by {:.3g} % in the energy of a "
-                       "strain, and need negative springs that the others do not outweigh",
-                       100 * nearest.misfit));
+    refuse(request, fmt::format("design = \"{}\": springs cannot follow this material. Their moduli have "
+                                "C12 - C66 = C13 - C44; the nearest ones err by {:.3g} % in the energy of a "
+                                "strain, and need negative springs that the others do not outweigh",
+                                cases::name_of(request.options.design), 100 * nearest.misfit));
   DesignResult result = of_terms({terms});
   result.residual = nearest.distance;
   if (nearest.misfit > told_misfit)
@@ -265,6 +178,22 @@ DesignResult from_transverse(const DesignRequest& request) {
                     "material's: the energies of strains err by up to {:.2g} %",
                     100 * nearest.misfit));
   result.by_fibre = nearest;
+  return result;
+}
+
+DesignResult from_midline_method(const DesignRequest& request) {
+  const bool is_isotropic = cases::is_isotropic(request.material);
+  DesignResult result = !is_isotropic                             ? from_transverse(request)
+                        : law_kind(request) == LawKind::power_log ? from_matched_method(request)
+                                                                  : from_hybrid_method(request);
+  const double beta = request.options.beta.value_or(default_beta(request.cells_across));
+  if (auto* const terms = std::get_if<BodyTerms>(&result.springs.kind)) {
+    add_midlines(terms->kinds.front(), request.cell, beta);
+    return result;
+  }
+  const auto [lambda, mu, kappa] = elastic_moduli(request);
+  const double nu = mechanics::linear_elastic(mu, kappa).poissons_ratio;
+  result.stiffness = with_midlines(result.stiffness, edge_part(nu, split(request), beta));
   return result;
 }
 
@@ -297,6 +226,8 @@ DesignResult designed(const DesignRequest& r) {
     return from_hybrid_method(r);
   case D::matched:
     return from_matched_method(r);
+  case D::midline:
+    return from_midline_method(r);
   case D::multi_load:
     return from_multi_load(r);
   case D::ladd_kinney:
@@ -366,7 +297,7 @@ DesignResult design(const DesignRequest& request) {
                                 cases::designs_for(is_isotropic),
                                 is_isotropic ? "isotropic" : "transversely isotropic"));
   DesignResult result = designed(request);
-  if (const auto law = law_of(options)) result.stiffness.exponents = law;
+  if (const auto law = law_of(request)) result.stiffness.exponents = law;
   std::vector<CellTerms> kinds{terms_of(result.stiffness)};
   if (auto* const terms = std::get_if<BodyTerms>(&result.springs.kind)) {
     if (const auto& law = result.stiffness.exponents)
@@ -386,7 +317,7 @@ DesignResult design(const DesignRequest& request) {
   }
   const auto range = options.strain_range.value_or(matched_range);
   const double edge = cube_edge(request.cell);
-  if (finds_exponents(options) && edge > 0 && !is_stable_over(range, result.stiffness, edge))
+  if (finds_exponents(request) && edge > 0 && !is_stable_over(range, result.stiffness, edge))
     result.warnings.push_back(fmt::format(
         "a large lattice of these cells is not stable over the logarithmic strains from {:g} to {:g} of "
         "its exponents: waves of two cells may grow in it",

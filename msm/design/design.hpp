@@ -1,6 +1,7 @@
 #pragma once
 
 #include "msm/design/by_axis.hpp"
+#include "msm/design/request.hpp"
 #include "msm/design/small_strain.hpp"
 #include "msm/design/uniaxial.hpp"
 
@@ -9,16 +10,6 @@
 /// Design: from a material to the stiffnesses of one cell. A method is a function, its line in design.cpp's
 /// switch, and a row of cases/case/designs.cpp, which says what it is and what it takes.
 namespace springproof::msm {
-
-/// Input of a design method.
-struct DesignRequest {
-  cases::Material material;
-  CellVertices cell = cube(1); ///< mm
-  cases::Msm options;          ///< the method and its settings, as in a case file's [msm]
-  /// K_FEM of the cell for a small-strain material, N/mm; only the linear method asks for it.
-  std::function<CellMatrix(const cases::LinearElastic&)> element_stiffness;
-  std::optional<UniaxialCurve> uniaxial_reference; ///< measured or given curve instead of the material's own
-};
 
 struct DesignResult {
   CellStiffness stiffness{};        ///< stiffnesses of the request's cell

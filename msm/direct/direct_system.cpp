@@ -113,7 +113,8 @@ class DirectSystem : public SpringSystem {
   std::string cause_of_instability() const override {
     if (has_negative_springs()) return ", because of springs of negative stiffness";
     if (has_negative_terms()) return ", because of volume terms or tetrahedra of negative stiffness";
-    const auto& [rest, links, cells, tetrahedra] = problem_.lattice;
+    const Points& rest = problem_.lattice.rest;
+    const std::vector<Link>& links = problem_.lattice.links;
     std::size_t n = 0;
     for (const Link& link : links)
       n += link.spring.rest_length >

@@ -40,7 +40,8 @@ bool has_all_springs(const Body& body) {
 } // namespace
 
 bool CellSprings::is_empty() const {
-  return edge == std::array<double, 3>{} && face_diagonal == edge && internal_diagonal == 0 && volume == 0;
+  const std::array<double, 3> none{};
+  return edge == none && face_diagonal == none && midline == none && internal_diagonal == 0 && volume == 0;
 }
 
 const CellSprings& Body::cell(int i, int j, int k) const {
@@ -99,6 +100,7 @@ std::optional<Body> coarsen(const Body& fine) {
       for (int a = 0; a < 3; ++a) {
         const int b = (a + 1) % 3, c = (a + 2) % 3;
         sum.edge[index(a)] += part.edge[index(a)] * h[a] / H[a];
+        sum.midline[index(a)] += part.midline[index(a)] * h[a] / H[a];
         sum.face_diagonal[index(a)] += part.face_diagonal[index(a)] * (h[b] + h[c]) / (H[b] + H[c]);
       }
       sum.internal_diagonal += part.internal_diagonal * h.sum() / H.sum();

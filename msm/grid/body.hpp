@@ -21,6 +21,7 @@ struct CellSprings {
   std::array<double, 3> face_diagonal{}; ///< N/mm, in the planes yz, xz, xy
   double internal_diagonal = 0;          ///< N/mm
   double volume = 0;                     ///< k_v, MPa
+  std::array<double, 3> midline{};       ///< N/mm, along x, y, z
   bool is_empty() const;
 };
 

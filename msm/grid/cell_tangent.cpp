@@ -47,6 +47,15 @@ CellMatrix CellTangent::at(const CellSprings& cell, const CellPositions& displac
       add(v, w, -block);
       add(w, v, -block);
     }
+  for (int axis = 0; axis < 3; ++axis) {
+    const double rest = body_.spacing[axis];
+    const Midline midline{{}, axis, {cell.midline[index(axis)], rest, law_of(body_.exponents, 1)}};
+    if (midline.spring.stiffness == 0 || !(midline.between_centres(x).squaredNorm() > 1e-12 * rest * rest))
+      continue;
+    const auto block = midline.tangent(x, Clamp::yes);
+    for (int v = 0; v < 8; ++v)
+      for (int w = 0; w < 8; ++w) add(v, w, block(index(v), index(w)));
+  }
   if (cell.volume == 0) return sum;
   const double rest_volume = body_.spacing.prod();
   const auto gradient = trilinear_volume_gradient(x);

@@ -21,7 +21,8 @@ CellSprings cell_springs(const CellStiffness& k) {
   return {{k.edge, k.edge, k.edge},
           {k.face_diagonal, k.face_diagonal, k.face_diagonal},
           k.internal_diagonal,
-          k.volume};
+          k.volume,
+          {k.midline, k.midline, k.midline}};
 }
 
 /// Returns the place here of a node of the mesh, if it is here.

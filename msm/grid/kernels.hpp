@@ -46,6 +46,9 @@ struct Springs {
   /// Cell volume term: k_v/V0 (MPa/mm³) of the cell whose lowest vertex the node is, or null.
   const Real* volume_stiffness;
   Real rest_volume; ///< mm³
+  /// Stiffness along x, y, z of the springs between the centres of that cell's opposite faces, or null;
+  /// with them there are volume terms, if of stiffness 0. Law and rest length are those of its edges.
+  const Real* midline[3];
   /// 1 for nodes whose springs and cells (those that lead upwards from them) count in the energy, else 0: an
   /// array of layout.plane from the first node of any plane on.
   const Real* counted;

@@ -1,4 +1,4 @@
-// Part of kernels_source.hpp, in its namespace: the volume terms of the cells.
+// Part of kernels_source.hpp, in its namespace: the terms of the cells, of their volumes and midlines.
 #pragma once
 
 /// Nodes of a plane whose cells are swept before their forces are added up: what they give stays in the
@@ -47,6 +47,7 @@ template<class Real>
 struct Cells {
   Rows<Real> row[4];
   const Real* stiffness;
+  const Real* midline[3];
   Vec<Real> edges;
   /// Values at the vertices less the first one's.
   SPRINGPROOF_INLINE void read(std::ptrdiff_t i, Vec<Real> (&x)[8]) const {
@@ -70,10 +71,13 @@ SPRINGPROOF_INLINE Cells<Real> cells_from(const Springs<Real>& s, const Real* fi
                                           int k) {
   const Layout& layout = s.layout;
   const std::ptrdiff_t here = layout.at(0, 0, k) + first, above = here + layout.plane;
-  return {{rows(field, layout.size, here), rows(field, layout.size, here + layout.row),
-           rows(field, layout.size, above), rows(field, layout.size, above + layout.row)},
-          s.volume_stiffness + here,
-          rest_edges(s)};
+  Cells<Real> cells{{rows(field, layout.size, here), rows(field, layout.size, here + layout.row),
+                     rows(field, layout.size, above), rows(field, layout.size, above + layout.row)},
+                    s.volume_stiffness + here,
+                    {},
+                    rest_edges(s)};
+  for (int a = 0; a < 3 && s.midline[0]; ++a) cells.midline[a] = s.midline[a] + here;
+  return cells;
 }
 
 /// A third of the sum of x . dV/dx: the volume is a cubic form.
@@ -83,6 +87,30 @@ SPRINGPROOF_INLINE Real volume(const Vec<Real> (&x)[8], const Vec<Real> (&g)[8])
 #pragma GCC unroll 8
   for (int v = 1; v < 8; ++v) sum += dot(x[v], g[v]);
   return sum * Real(1.0 / 3);
+}
+
+/// Vectors between the centres of opposite faces, along x, y and z: means of four edges.
+template<class Real>
+SPRINGPROOF_INLINE void midlines(const Vec<Real> (&x)[8], Vec<Real> (&d)[3]) {
+  const Real quarter(0.25);
+  const Vec<Real> low_front = x[0] + x[1], low_back = x[2] + x[3], high_front = x[4] + x[5],
+                  high_back = x[6] + x[7];
+  d[0] = quarter * ((x[1] - x[0]) + (x[3] - x[2]) + ((x[5] - x[4]) + (x[7] - x[6])));
+  d[1] = quarter * ((low_back - low_front) + (high_back - high_front));
+  d[2] = quarter * ((high_front + high_back) - (low_front + low_back));
+}
+
+/// f[v] += what forces on the face at +a, and their opposites on the one at -a, give to a vertex.
+template<class Real>
+SPRINGPROOF_INLINE void add_from_midlines(const Vec<Real> (&forces)[3], Vec<Real> (&f)[8]) {
+  const Real quarter(0.25);
+  const Vec<Real> x = quarter * forces[0], y = quarter * forces[1], z = quarter * forces[2];
+  const Vec<Real> corner[4] = {Vec<Real>{0, 0, 0} - x - y, x - y, y - x, x + y};
+#pragma GCC unroll 4
+  for (int v = 0; v < 4; ++v) {
+    f[v] = f[v] + (corner[v] - z);
+    f[v + 4] = f[v + 4] + (corner[v] + z);
+  }
 }
 
 /// Nodes of the plane's rows that have cells above them, in whole packs: the last row has none.
@@ -122,11 +150,11 @@ SPRINGPROOF_INLINE void store_vertices(Real* b, std::ptrdiff_t i, const Vec<Real
   }
 }
 
-// Volume terms are functions of their own: inlined behind the springs, their loops lose a third of their
+// Cells' terms are functions of their own: inlined behind the springs, their loops lose a third of their
 // speed.
-template<class Real, class Volume>
-__attribute__((noinline)) void volume_force(const Springs<Real>& s, const Slab<Real>& slab, const Volume& law,
-                                            const Real* displacement, Real* force) {
+template<bool has_midlines, class Real, class Laws>
+__attribute__((noinline)) void cell_force(const Springs<Real>& s, const Slab<Real>& slab, const Laws& laws,
+                                          const Real* displacement, Real* force) {
   const auto action = [&](std::ptrdiff_t first, std::ptrdiff_t length, int k, Real* b) {
     const Cells<Real> cells = cells_from(s, displacement, first, k);
 #pragma GCC ivdep
@@ -134,20 +162,28 @@ __attribute__((noinline)) void volume_force(const Springs<Real>& s, const Slab<R
       Vec<Real> x[8], g[8];
       cells.positions(i, x);
       volume_gradients(x, g);
-      const Real pressure = law.pressure(volume(x, g), cells.stiffness[i]);
+      const Real pressure = laws.volume.pressure(volume(x, g), cells.stiffness[i]);
 #pragma GCC unroll 8
       for (int v = 0; v < 8; ++v) g[v] = pressure * g[v];
+      if constexpr (has_midlines) {
+        Vec<Real> d[3];
+        midlines(x, d);
+#pragma GCC unroll 3
+        for (int a = 0; a < 3; ++a)
+          d[a] = laws.spring[edge_along[a]].transverse(squared_length(d[a]), cells.midline[a][i]) * d[a];
+        add_from_midlines(d, g);
+      }
       store_vertices(b, i, g);
     }
   };
   sweep_cells(s, slab, action, force);
 }
 
-/// dp/dV g (g . v) + p (change of g along v), the second part only where the tangent is not clamped.
-template<Clamp clamp, class Real, class Volume>
-__attribute__((noinline)) void volume_product(const Springs<Real>& s, const Slab<Real>& slab,
-                                              const Volume& law, const Real* displacement,
-                                              const Real* direction, Real* product) {
+/// dp/dV g (g . v) + p (change of g along v), the second part only where the tangent is not clamped, and the
+/// tangents of midlines.
+template<Clamp clamp, bool has_midlines, class Real, class Laws>
+__attribute__((noinline)) void cell_product(const Springs<Real>& s, const Slab<Real>& slab, const Laws& laws,
+                                            const Real* displacement, const Real* direction, Real* product) {
   const auto action = [&](std::ptrdiff_t first, std::ptrdiff_t length, int k, Real* b) {
     const Cells<Real> cells = cells_from(s, displacement, first, k), w = cells_from(s, direction, first, k);
 #pragma GCC ivdep
@@ -160,14 +196,26 @@ __attribute__((noinline)) void volume_product(const Springs<Real>& s, const Slab
 #pragma GCC unroll 8
       for (int v = 1; v < 8; ++v) change += dot(g[v], y[v]);
       const Real size = volume(x, g), stiffness = cells.stiffness[i];
-      change *= -law.template slope<clamp>(size, stiffness); // sweep_cells subtracts
-      const Real pressure = clamp == Clamp::no ? -law.pressure(size, stiffness) : Real(0);
+      change *= -laws.volume.template slope<clamp>(size, stiffness); // sweep_cells subtracts
+      const Real pressure = clamp == Clamp::no ? -laws.volume.pressure(size, stiffness) : Real(0);
 #pragma GCC unroll 8
       for (int a = 0; a < 8; ++a) {
         if constexpr (clamp == Clamp::no)
           f[a] = change * g[a] + pressure * volume_gradient_change(x, y, a);
         else
           f[a] = change * g[a];
+      }
+      if constexpr (has_midlines) {
+        Vec<Real> d[3], c[3];
+        midlines(x, d);
+        midlines(y, c);
+#pragma GCC unroll 3
+        for (int a = 0; a < 3; ++a) {
+          const auto [transverse, along] =
+              laws.spring[edge_along[a]].template tangent<clamp>(squared_length(d[a]), cells.midline[a][i]);
+          c[a] = (-along * dot(d[a], c[a])) * d[a] - transverse * c[a];
+        }
+        add_from_midlines(c, f);
       }
       store_vertices(b, i, f);
     }

@@ -47,6 +47,9 @@ struct Fast {
   }
 };
 
+/// Places of a cell's edges along x, y, z among the 13 springs.
+constexpr int edge_along[3] = {12, 10, 4};
+
 /// The laws of the 13 springs and of the volume terms.
 template<class SpringLaw, class Real>
 struct Laws {

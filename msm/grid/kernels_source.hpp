@@ -29,7 +29,10 @@ void force(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacem
   with_laws(s, [&](const auto& laws) {
     sweep_springs(s, slab, Force<std::decay_t<decltype(laws)>, Real>{laws}, displacement, displacement,
                   result);
-    if (s.volume_stiffness) volume_force(s, slab, laws.volume, displacement, result);
+    if (s.midline[0])
+      cell_force<true>(s, slab, laws, displacement, result);
+    else if (s.volume_stiffness)
+      cell_force<false>(s, slab, laws, displacement, result);
   });
 }
 
@@ -39,7 +42,10 @@ void product_with(const Springs<Real>& s, const Slab<Real>& slab, const Real* di
   with_laws(s, [&](const auto& laws) {
     sweep_springs(s, slab, Product<std::decay_t<decltype(laws)>, Real, clamp>{laws}, displacement, direction,
                   result);
-    if (s.volume_stiffness) volume_product<clamp>(s, slab, laws.volume, displacement, direction, result);
+    if (s.midline[0])
+      cell_product<clamp, true>(s, slab, laws, displacement, direction, result);
+    else if (s.volume_stiffness)
+      cell_product<clamp, false>(s, slab, laws, displacement, direction, result);
   });
 }
 template<class Real>
@@ -96,6 +102,12 @@ double energy_with(const Springs<Real>& s, const Laws& laws, int first, int last
       cells.positions(i, x);
       volume_gradients(x, g);
       sum += laws.volume.twice_energy(volume(x, g), s.counted[i] * cells.stiffness[i]);
+      if (!s.midline[0]) continue;
+      Vec<Real> d[3];
+      midlines(x, d);
+      for (int a = 0; a < 3; ++a)
+        sum +=
+            laws.spring[edge_along[a]].twice_energy(squared_length(d[a]), s.counted[i] * cells.midline[a][i]);
     }
     total += 0.5 * static_cast<double>(sum);
   }
@@ -105,6 +117,17 @@ double energy_with(const Springs<Real>& s, const Laws& laws, int first, int last
 template<class Real>
 double energy(const Springs<Real>& s, int first, int last, const Real* displacement) {
   return with_laws(s, [&](const auto& laws) { return energy_with(s, laws, first, last, displacement); });
+}
+
+/// Adds transverse I + along d d^T to the entries xx, yy, zz, yz, xz, xy.
+template<class Real>
+SPRINGPROOF_INLINE void add_block(Real transverse, Real along, const Vec<Real>& d, Real (&sum)[6]) {
+  sum[0] += transverse + along * d.x * d.x;
+  sum[1] += transverse + along * d.y * d.y;
+  sum[2] += transverse + along * d.z * d.z;
+  sum[3] += along * d.y * d.z;
+  sum[4] += along * d.x * d.z;
+  sum[5] += along * d.x * d.y;
 }
 
 /// Blocks of the springs to both ends. Not the time-critical one: the ends get theirs one spring at a time.
@@ -157,12 +180,21 @@ void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Laws& l
       cells.positions(i, x);
       volume_gradients(x, g);
       const Real slope = laws.volume.template slope<clamp>(volume(x, g), cells.stiffness[i]);
+      Real of_midlines[6] = {};
+      Vec<Real> d[3];
+      midlines(x, d);
+      for (int a = 0; a < 3 && s.midline[0]; ++a) {
+        const auto [t, along] = laws.spring[edge_along[a]].template tangent<clamp>(squared_length(d[a]),
+                                                                                   cells.midline[a][i] / 16);
+        add_block(t, along, d[a], of_midlines);
+      }
       for (int v = 0; v < 8; ++v) {
-        const Real products[6] = {g[v].x * g[v].x, g[v].y * g[v].y, g[v].z * g[v].z,
-                                  g[v].y * g[v].z, g[v].x * g[v].z, g[v].x * g[v].y};
+        Real sum[6];
+        for (int c = 0; c < 6; ++c) sum[c] = of_midlines[c];
+        add_block(Real(0), slope, g[v], sum);
         for (int c = 0; c < 6; ++c)
           result_plane(layout, slab, result, k + (v >> 2), c)[i + (v & 1) + ((v >> 1) & 1) * layout.row] +=
-              slope * products[c];
+              sum[c];
       }
     }
   }

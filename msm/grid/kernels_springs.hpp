@@ -1,10 +1,10 @@
 // Part of kernels_source.hpp, in its namespace: the springs, a pack of nodes at a time.
 #pragma once
 
-/// Distances from a node to its neighbours along x, y and z at rest: springs 12, 10 and 4.
+/// Distances from a node to its neighbours along x, y and z at rest.
 template<class Real>
 SPRINGPROOF_INLINE Vec<Real> rest_edges(const Springs<Real>& s) {
-  return {s.rest[12][0], s.rest[10][1], s.rest[4][2]};
+  return {s.rest[edge_along[0]][0], s.rest[edge_along[1]][1], s.rest[edge_along[2]][2]};
 }
 
 // What a spring does to its ends, as functions of the vector d from one to the other, the change of d in some

@@ -17,6 +17,7 @@ CellSprings sum(CellSprings a, double factor, const CellSprings& b) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     a.edge[axis] += factor * b.edge[axis];
     a.face_diagonal[axis] += factor * b.face_diagonal[axis];
+    a.midline[axis] += factor * b.midline[axis];
   }
   a.internal_diagonal += factor * b.internal_diagonal;
   a.volume += factor * b.volume;

@@ -43,14 +43,28 @@ SpringField<Real>::SpringField(const Body& body, int n_threads)
     set_shares();
   else
     set_by_node();
-  if (std::any_of(body.springs.begin(), body.springs.end(),
-                  [](const CellSprings& cell) { return cell.volume != 0; })) {
-    Field<Real>& stiffness = arrays_.emplace_back(Field<Real>::Zero(body.layout.size));
+  const auto by_cell = [&](const auto& value) -> const Real* {
+    Field<Real>& all = arrays_.emplace_back(Field<Real>::Zero(body.layout.size));
     for_each_place(body.cells, [&](int i, int j, int k) {
-      stiffness[body.layout.at(i, j, k)] = static_cast<Real>(body.cell(i, j, k).volume / body.spacing.prod());
+      all[body.layout.at(i, j, k)] = static_cast<Real>(value(body.cell(i, j, k)));
     });
-    springs_.volume_stiffness = stiffness.data();
-  }
+    return all.data();
+  };
+  const auto has_any = [&](const auto& is_there) {
+    return std::any_of(body.springs.begin(), body.springs.end(), is_there);
+  };
+  const bool has_midlines =
+      has_any([](const CellSprings& cell) { return cell.midline != std::array<double, 3>{}; });
+  if (has_midlines || has_any([](const CellSprings& cell) { return cell.volume != 0; }))
+    springs_.volume_stiffness =
+        by_cell([&](const CellSprings& cell) { return cell.volume / body.spacing.prod(); });
+  const bool are_equal = !has_any([](const CellSprings& cell) {
+    return cell.midline[1] != cell.midline[0] || cell.midline[2] != cell.midline[0];
+  });
+  for (std::size_t a = 0; a < 3 && has_midlines; ++a)
+    springs_.midline[a] = a > 0 && are_equal
+                              ? springs_.midline[0]
+                              : by_cell([&](const CellSprings& cell) { return cell.midline[a]; });
   Field<Real>& counted = arrays_.emplace_back(Field<Real>::Zero(body.layout.plane));
   for (int j = 0; j < body.layout.nodes[1]; ++j)
     for (int i = 0; i < body.layout.nodes[0]; ++i)
@@ -270,12 +284,15 @@ double SpringField<Real>::small_motion_energy(const Field<Real>& motion) const {
   for (int v = 0; v < 8; ++v)
     for (int w = v + 1; w < 8; ++w)
       alone.links.push_back({v, w, {0, (alone.rest[index(w)] - alone.rest[index(v)]).norm()}});
+  for (int axis = 0; axis < 3; ++axis)
+    alone.midlines.push_back({alone.volume_cells.front().nodes, axis, {0, body_.spacing[axis]}});
   Points moved(8);
   double sum = 0;
   for_each_place(body_.cells, [&](int i, int j, int k) {
     if (body_.part && !body_.part->owns(i, j, k)) return;
     const CellSprings& cell = body_.cell(i, j, k);
     for (Link& link : alone.links) link.spring.stiffness = stiffness_across(cell, link.i ^ link.j);
+    for (Midline& midline : alone.midlines) midline.spring.stiffness = cell.midline[index(midline.axis)];
     alone.volume_cells.front().stiffness = cell.volume;
     for (int v = 0; v < 8; ++v) {
       const Eigen::Vector3i at = Eigen::Vector3i(i, j, k) + vertex_of_cell(v);

@@ -24,6 +24,7 @@ void for_each_stiffness(AnyBody& body, const Action& action) {
     for (auto& edge : cell.edge) action(edge);
     for (auto& diagonal : cell.face_diagonal) action(diagonal);
     action(cell.internal_diagonal);
+    for (auto& midline : cell.midline) action(midline);
     action(cell.volume);
   }
 }

@@ -44,9 +44,16 @@ void grid_force(benchmark::State& state) {
 BENCHMARK_TEMPLATE(grid_force, double)->Args({40, 1})->Args({40, 2})->UseRealTime();
 BENCHMARK_TEMPLATE(grid_force, float)->Args({40, 1})->Args({40, 2})->UseRealTime();
 
-template<class Real, bool is_power_log = false>
+enum class With { springs, volume, midlines };
+
+/// @tparam with  volume terms beside the springs, and midlines beside both
+template<class Real, bool is_power_log = false, With with = With::springs>
 void grid_product(benchmark::State& state) {
   Body body = compare::timed_cube(static_cast<int>(state.range(0)));
+  for (msm::grid::CellSprings& cell : body.springs) {
+    if (with != With::springs) cell.volume = 0.14;
+    if (with == With::midlines) cell.midline = {0.1, 0.1, 0.1};
+  }
   if (is_power_log) body.exponents = msm::Exponents{-1.3, -1.8, -2.2};
   const msm::grid::SpringField<Real> springs(body, static_cast<int>(state.range(1)));
   Field<Real> displacement = Field<Real>::Zero(3 * body.layout.size), direction = displacement,
@@ -58,6 +65,12 @@ BENCHMARK_TEMPLATE(grid_product, double)->Args({40, 1})->Args({40, 2})->UseRealT
 BENCHMARK_TEMPLATE(grid_product, float)->Args({40, 1})->Args({40, 2})->UseRealTime();
 BENCHMARK_TEMPLATE(grid_product, double, true)->Args({40, 1})->UseRealTime();
 BENCHMARK_TEMPLATE(grid_product, float, true)->Args({40, 1})->UseRealTime();
+BENCHMARK_TEMPLATE(grid_product, double, false, With::volume)->Args({40, 1})->UseRealTime();
+BENCHMARK_TEMPLATE(grid_product, double, false, With::midlines)->Args({40, 1})->UseRealTime();
+BENCHMARK_TEMPLATE(grid_product, float, false, With::volume)->Args({40, 1})->UseRealTime();
+BENCHMARK_TEMPLATE(grid_product, float, false, With::midlines)->Args({40, 1})->UseRealTime();
+BENCHMARK_TEMPLATE(grid_product, double, true, With::volume)->Args({40, 1})->UseRealTime();
+BENCHMARK_TEMPLATE(grid_product, double, true, With::midlines)->Args({40, 1})->UseRealTime();
 
 void multigrid_cycle(benchmark::State& state) {
   const Body body = compare::timed_cube(static_cast<int>(state.range(0)));

@@ -24,6 +24,9 @@ const msm::CellStiffness hybrid{0.0722, 0.0111, 0.0667, 0.1481};
 /// The same with power-log springs that soften as log_strain does.
 const msm::CellStiffness power_log{0.0722, 0.0111, 0.0667, 0.1481, msm::Exponents{-1.485, -1.485, -1.485}};
 
+/// The midline design's springs of the same material, beta = 0.8.
+const msm::CellStiffness midline{0.0239, 0.0111, 0.0667, 0.1481, {}, 0.193};
+
 /// Range: cells along an edge, threads. From rest to a residual of 1e-9; setting up is not counted.
 void solve(benchmark::State& state, const msm::CellStiffness& cell) {
   const cases::Scene scene = pulled_cube(static_cast<int>(state.range(0)));
@@ -50,6 +53,11 @@ BENCHMARK_CAPTURE(solve, springs, springs)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 BENCHMARK_CAPTURE(solve, hybrid, hybrid)
+    ->ArgNames({"cells", "threads"})
+    ->ArgsProduct({{10, 20, 40}, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(solve, midline, midline)
     ->ArgNames({"cells", "threads"})
     ->ArgsProduct({{10, 20, 40}, {1, 2}})
     ->Unit(benchmark::kMillisecond)

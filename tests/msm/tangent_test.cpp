@@ -34,6 +34,7 @@ Lattice lattice_of_all_terms() {
   for (std::size_t kind = 0; kind < 2; ++kind) {
     kinds[kind].tetrahedra = tetrahedra[kind].tetrahedra;
     kinds[kind].volume = 0.14;
+    kinds[kind].midlines = {{0, 0.1}, {1, 0.2}, {2, 0.3}};
     msm::set_exponents(kinds[kind], {-1.3, -2, 4.3});
   }
   return msm::make_lattice(cases::make_grid_mesh(grid), msm::BodyTerms{kinds, {0, 1, 1, 0}});

@@ -123,10 +123,11 @@ TEST_CASE("a transversely isotropic material has designs of its own") {
   CHECK_NOTHROW(with_design(along_z, "transverse"));
   CHECK_THROWS_WITH(with_design(askew, "transverse"),
                     Catch::Contains("msm.design") && Catch::Contains("lies along no axis of the grid"));
-  CHECK_THROWS_WITH(with_design(along_z, "hybrid"),
-                    Catch::Contains("msm.design") &&
-                        Catch::Contains("must be \"transverse\" | \"given\" | \"network\" with model = "
-                                        "\"transversely_isotropic\""));
+  CHECK_THROWS_WITH(
+      with_design(along_z, "hybrid"),
+      Catch::Contains("msm.design") &&
+          Catch::Contains("must be \"midline\" | \"transverse\" | \"given\" | \"network\" with model = "
+                          "\"transversely_isotropic\""));
   const std::string isotropic = replaced(good_case, designed_text, "design = 'transverse'\n");
   CHECK_THROWS_WITH(read_text(isotropic), Catch::Contains("msm.design") && Catch::Contains("\"hybrid\"") &&
                                               Catch::Contains("with model = \"linear_elastic\""));

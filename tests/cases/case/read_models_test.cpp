@@ -10,6 +10,13 @@ using namespace springproof;
 using namespace cases;
 using namespace case_text;
 
+namespace {
+
+const LinearElastic soft{0.3, 0.35};
+const TransverselyIsotropic fibrous{60e-3, 20e-3, 0.45, 0.7, 12e-3, Eigen::Vector3d::UnitZ()};
+
+} // namespace
+
 TEST_CASE("a nearly incompressible material is refused for elements that lock and for the linear method") {
   const std::string ogden = R"(schema = 1
 name = "bar"
@@ -65,9 +72,9 @@ TEST_CASE("a mistake in [fem] is refused where it is made") {
   refused("refine = 1", "refine = 8", 21, "fem.refine", {"is 8", "fewer"});
   refused(fem, "formulation = 'hyperelastic'\n", 19, "fem.formulation", {"ogden"});
   refused(fem, "formulation = 'saint_venant_kirchhoff'\nelement = 'q1_bbar'\n", 20, "fem.element",
-          {"\"q1\" | \"q2\""});
+          {"\"q1\" | \"q1_wilson\" | \"q2\""});
   refused(fem, "formulation = 'saint_venant_kirchhoff'\nelement = 'q2_p1'\n", 20, "fem.element",
-          {"\"q1\" | \"q2\""});
+          {"\"q1\" | \"q1_wilson\" | \"q2\""});
   refused("[fem]", "fem = 3\n[fim]", 18, "load[0].fem", {"is not a key here"});
   // it belongs to the load above
   // it
@@ -128,6 +135,8 @@ TEST_CASE("a mistake in [msm] is refused where it is made") {
   refused(msm, "design = 'baudet'\npoissons_ratio = -0.3\n", 23, "msm.design",
           {"-0.25 and more", "\"baudet\""});
   refused(msm, "design = 'biquadratic'\nlaw = 'power_log'\n", 24, "msm.law", {"left out", "law of its own"});
+  refused(msm, "design = 'midline'\nbeta = 0\n", 24, "msm.beta", {"above 0, at most 2"});
+  refused(msm, "design = 'matched'\nbeta = 1\n", 24, "msm.beta", {"left out", "\"midline\""});
   refused(msm, "design = 'network'\n", 22, "msm.file", {"is missing"});
   refused(msm, "design = 'network'\nfile = 'springs.txt'\n", 24, "msm.file", {".csv"});
   refused(msm, "design = 'network'\nfile = 'no_such.csv'\n", 24, "msm.file", {"a file that exists"});
@@ -157,7 +166,7 @@ TEST_CASE("an exponent is one number for all springs or one for each kind") {
   const auto read = [](const std::string& lines) {
     return read_case_text(replaced(good_case, "split = 0.8", lines), "case.toml").msm;
   };
-  CHECK(read("split = 0.8").law == SpringLaw::hooke);
+  CHECK(law_of(read("split = 0.8"), soft) == SpringLaw::hooke);
   CHECK_FALSE(read("split = 0.8").exponent);
   CHECK(read("law = 'power_log'\nexponent = -1.5").law == SpringLaw::power_log);
   CHECK(read("law = 'power_log'\nexponent = -1.5").exponent == std::array{-1.5, -1.5, -1.5});
@@ -170,7 +179,7 @@ TEST_CASE("the multi-load design has exponents of the file, or fits them, and Ho
                           "case.toml")
         .msm;
   };
-  CHECK(read("").law == SpringLaw::hooke);
+  CHECK(law_of(read(""), soft) == SpringLaw::hooke);
   CHECK(read("law = 'power_log'").law == SpringLaw::power_log);
   CHECK_FALSE(read("law = 'power_log'").exponent);
   CHECK(read("law = 'power_log'\nexponent = 2").exponent == std::array{2., 2., 2.});
@@ -182,9 +191,29 @@ TEST_CASE("the matched design has power-log springs, whose exponents the file le
                                  "case.toml")
                       .msm;
   CHECK(msm.design == Design::matched);
-  CHECK(msm.law == SpringLaw::power_log);
+  CHECK(law_of(msm, soft) == SpringLaw::power_log);
   CHECK_FALSE(msm.exponent);
   CHECK(msm.strain_range == std::array{-0.1, 0.3});
+}
+
+TEST_CASE(
+    "the midline design has power-log springs, but in a material with a fibre, or Hooke's by the file") {
+  const auto read = [](const std::string& lines) {
+    return read_case_text(replaced(good_case, "design = 'moduli'", "design = 'midline'\n" + lines),
+                          "case.toml")
+        .msm;
+  };
+  CHECK(law_of(read(""), soft) == SpringLaw::power_log);
+  CHECK(law_of(read(""), fibrous) == SpringLaw::hooke);
+  Msm without_ratio;
+  without_ratio.design = Design::midline;
+  CHECK(law_of(without_ratio, LinearElastic{0.3, 0.2}) == SpringLaw::hooke); // a negative volume term
+  CHECK(law_of(read("law = 'power_log'"), LinearElastic{0.3, 0.2}) == SpringLaw::power_log);
+  CHECK(law_of(read("law = 'hooke'"), soft) == SpringLaw::hooke);
+  CHECK_FALSE(read("").beta);
+  CHECK(read("beta = 0.8").beta == 0.8);
+  CHECK_FALSE(read("law = 'power_log'").exponent);
+  CHECK(read("exponent = -1").exponent == std::array{-1., -1., -1.});
 }
 
 TEST_CASE("stiffnesses are of kinds of springs, of kinds along every axis, or of all springs") {

@@ -93,7 +93,7 @@ TEST_CASE("a program that knows the exported files alone rebuilds the springs' f
 
 TEST_CASE("the CSV files hold volume terms, exponents and tetrahedra too", "[verification]") {
   const std::vector<std::vector<std::string>> other_terms{
-      {"msm.design=hybrid"}, {"msm.design=matched"}, {"msm.design=biquadratic"}};
+      {"msm.design=hybrid"}, {"msm.design=matched"}, {"msm.design=midline"}, {"msm.design=biquadratic"}};
   for (const auto& settings : other_terms) {
     INFO(settings.front());
     check_rebuilt(ExportTarget::csv, springs_of(settings));
@@ -132,6 +132,7 @@ TEST_CASE("what a target cannot express is refused with its names") {
   const auto [setting, target, message] = GENERATE(table<std::string, ExportTarget, std::string>({
       {"msm.design=hybrid", ExportTarget::sofa, "--to sofa cannot express the volume terms of 12 cells"},
       {"msm.design=matched", ExportTarget::sofa, "the volume terms of 12 cells, 227 power-log springs"},
+      {"msm.design=midline", ExportTarget::sofa, "36 springs between the centres of faces, which have 65 %"},
       {"msm.design=biquadratic", ExportTarget::sofa, "60 tetrahedra of biquadratic springs"},
       {"msm.design=biquadratic", ExportTarget::vtu, "60 tetrahedra of biquadratic springs"},
   }));
@@ -148,6 +149,8 @@ TEST_CASE("what a file does not hold is said") {
   CHECK_THAT(said(ExportTarget::vtu, hybrid), Catch::Contains("not in it: the volume terms of 12 cells"));
   CHECK_THAT(said(ExportTarget::csv, hybrid),
              Catch::Contains("reads springs.csv alone") && !Catch::Contains("refuses"));
+  CHECK_THAT(said(ExportTarget::vtu, springs_of({"msm.design=midline"})),
+             Catch::Contains("not in it: 36 springs between the centres of faces"));
   hybrid.lattice.links.front().spring.stiffness *= -1;
   CHECK_THAT(said(ExportTarget::csv, hybrid), Catch::Contains("1 springs have a negative stiffness"));
 }

@@ -82,6 +82,16 @@ def from_csv(folder, displacement):
     for s in rows_of(folder / "springs.csv"):
         spring_force(force, x, int(s["node_a"]), int(s["node_b"]), 1e-3 * float(s["stiffness_N_per_m"]), float(s["rest_length_mm"]),
                      float(s["exponent"]) if s["exponent"] else None)
+    midlines = folder / "midlines.csv"
+    for m in rows_of(midlines) if midlines.exists() else []:  # between means of four nodes each
+        ends = [[int(m[f"node_{end}{v}"]) for v in range(4)] for end in "ab"]
+        centres = [[sum(x[n][a] for n in nodes) / 4 for a in range(3)] for nodes in ends]
+        of_ends = [[0.0] * 3 for _ in ends]
+        spring_force(of_ends, centres, 0, 1, 1e-3 * float(m["stiffness_N_per_m"]), float(m["rest_length_mm"]),
+                     float(m["exponent"]) if m["exponent"] else None)
+        for nodes_of_end, vector in zip(ends, of_ends):
+            for node in nodes_of_end:
+                add(force, node, vector, 0.25)
     for cell in rows_of(folder / "volume_terms.csv"):
         corners = [int(cell[f"node_{v}"]) for v in range(8)]
         volume, gradient = volume_gradient([x[c] for c in corners])

@@ -232,6 +232,9 @@ TEST_CASE_METHOD(WithMpi, "operators on parts of a grid give what they give on t
   Body whole = GENERATE(body_with_holes({13, 11, 12}), uniform_body({13, 11, 12}));
   whole.exponents = GENERATE(as<std::optional<msm::Exponents>>{}, std::nullopt,
                              std::optional(msm::Exponents{-1.3, -1.8, 2.2}));
+  if (GENERATE(true, false)) // the cells have midlines
+    for (msm::grid::CellSprings& cell : whole.springs)
+      if (cell.internal_diagonal > 0) cell.midline = {0.02, 0.03, 0.05};
   const Body here = msm::deal_out_to(PETSC_COMM_WORLD)(whole);
   REQUIRE(here.part.has_value() == (n_ranks() > 1));
   const Field<double> u = 0.05 * any_field(whole, 1), v = any_field(whole, 2);

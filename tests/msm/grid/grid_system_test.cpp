@@ -35,6 +35,12 @@ msm::CellStiffness with_exponents(msm::CellStiffness springs, const msm::Exponen
   return springs;
 }
 
+msm::CellStiffness with_midlines(msm::CellStiffness springs) {
+  springs.midline = 2.4 * springs.edge;
+  springs.edge *= 0.4;
+  return springs;
+}
+
 cases::Scene masked_scene() {
   cases::Grid grid;
   grid.cells = {7, 6, 8};
@@ -69,7 +75,12 @@ TEST_CASE("the multigrid path and the direct path find the same equilibrium", "[
     check_agreement(cases::make_scene(bodies::clamped_box({8, 8, 8}, bodies::torsion(0.025))),
                     {with_exponents(bodies::hybrid_cell, {-1.3, -1.8, -2.2})});
   }
+  SECTION("of a cube with midlines under torsion") {
+    check_agreement(cases::make_scene(bodies::clamped_box({8, 8, 8}, bodies::torsion(0.025))),
+                    {with_midlines(with_exponents(bodies::hybrid_cell, {-1.3, -1.8, -2.2}))});
+  }
   SECTION("of a body with holes") {
+    check_agreement(masked_scene(), {with_midlines(bodies::hybrid_cell)});
     check_agreement(masked_scene(), {bodies::hybrid_cell});
     check_agreement(masked_scene(), {with_exponents(bodies::hybrid_cell, {1.8, 1.8, 1.8})});
   }

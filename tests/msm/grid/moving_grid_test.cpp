@@ -71,7 +71,9 @@ TEST_CASE("motions on a grid are those of the direct path: springs of three laws
   msm::CellStiffness power_log = hybrid_springs;
   power_log.exponents = msm::Exponents{-1.3, -1.8, -2.2};
   const msm::CellStiffness edges_and_diagonals{0.2, 0.1, 0.3, 0};
-  for (const auto& cell : {power_log, edges_and_diagonals})
+  msm::CellStiffness with_midlines = power_log;
+  with_midlines.midline = 0.4;
+  for (const auto& cell : {power_log, edges_and_diagonals, with_midlines})
     check_paths_agree(block(steps(cases::Scheme::generalized_alpha, 0.005, 0.05), {1000., 0, 0.002}), {cell});
 }
 

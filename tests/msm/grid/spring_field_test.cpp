@@ -71,6 +71,15 @@ std::vector<Both> bodies_of_all_kinds() {
   all.emplace_back(cases::make_box_mesh({3, 2, 0.6}, {{3, 2, 2}}), std::vector{softening});
   all.emplace_back(cases::make_grid_mesh(bodies::masked_grid()), std::vector{softening});
   all.emplace_back(cases::make_box_mesh({2, 1, 1}, {{2, 1, 1}}), std::vector{softening, other});
+  CellStiffness with_midlines = hybrid, softening_midlines = softening;
+  with_midlines.midline = 0.2;
+  softening_midlines.midline = 0.15;
+  all.emplace_back(cases::make_box_mesh({5, 4, 11}, {{5, 4, 11}}), std::vector{with_midlines});
+  all.emplace_back(cases::make_box_mesh({60, 2, 2}, {{60, 2, 2}}), std::vector{softening_midlines});
+  all.emplace_back(cases::make_box_mesh({3, 2, 0.6}, {{3, 2, 2}}), std::vector{softening_midlines});
+  all.emplace_back(cases::make_grid_mesh(bodies::masked_grid()), std::vector{softening_midlines});
+  with_midlines.volume = 0; // midlines need no volume terms
+  all.emplace_back(cases::make_box_mesh({2, 1, 1}, {{2, 1, 1}}), std::vector{with_midlines, springs});
   return all;
 }
 

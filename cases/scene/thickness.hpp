@@ -1,0 +1,15 @@
+#pragma once
+
+#include "cases/case/boundary.hpp"
+#include "cases/mesh/hex_mesh.hpp"
+
+/// How thick a body is, counted in cells.
+namespace springproof::cases {
+
+/// Of each cell, the fewest cells in a row through it from one side of the body to the other, of the three
+/// rows along its edges: 1 in a plate of one cell. A plane of symmetry mirrors a row; a closed ring has no
+/// ends, and does not count.
+/// @param most  what is more counts as so many
+std::vector<int> cells_across(const HexMesh& mesh, const std::vector<Fixed>& symmetry, int most);
+
+} // namespace springproof::cases
