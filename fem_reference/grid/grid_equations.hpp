@@ -82,8 +82,7 @@ class GridEquations : public ElementEquations {
   bool begins_step_ = false;    ///< this step has had no direction yet
   bool is_easy_ = true;         ///< every iteration of the step gained much
   bool carries_tangent_ = true; ///< a step begins with the tangent of the one before
-  Field<double>
-      condensed_; ///< force with the imbalance of the cells' unknowns in the state last evaluated, N
+  Field<double> condensed_;     ///< force with the imbalance of the cells' unknowns, in the last state, N
   std::vector<double> gap_;     ///< gaps of the moved entries there, mm
   double reaction_ = 0, volume_mismatch_ = 0;
   std::vector<double> bubble_imbalance_; ///< squared forces on the bubbles of each layer of cells, N²
