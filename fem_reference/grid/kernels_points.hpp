@@ -5,10 +5,6 @@
 template<class P>
 using Corners = P[8][3];
 
-SPRINGPROOF_INLINE std::ptrdiff_t corner_of(const Layout& layout, int a) {
-  return (a & 1) + (a >> 1 & 1) * layout.row + (a >> 2) * layout.plane;
-}
-
 SPRINGPROOF_INLINE void load_parameter(const double* from, PackD& to) {
   to = load(from);
 }

@@ -19,11 +19,11 @@ struct Count {
 
 #include "fem_reference/grid/kernels_stencil.hpp"
 
+#include "mechanics/grid/kernels_masses.hpp"
+
 #include "fem_reference/grid/kernels_points.hpp"
 
 #include "fem_reference/grid/kernels_bubbles.hpp"
-
-#include "mechanics/grid/kernels_masses.hpp"
 
 #include "fem_reference/grid/kernels_cells.hpp"
 
