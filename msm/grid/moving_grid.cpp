@@ -182,6 +182,7 @@ class MovingGrid : public MovingSprings {
 
   std::optional<SpringLevels> multigrid_; ///< made with these:
   Factors of_multigrid_;
+  std::optional<ConsistentMasses<float>> masses_of_cycle_;
   std::optional<RealTimeSolver> real_time_; ///< made anew with the cycle
   bool is_set_ = false;                     ///< real_time_ knows this step
   CycleSpeed speed_;
@@ -298,7 +299,15 @@ class MovingGrid : public MovingSprings {
     of_multigrid_ = schedule_.step();
     multigrid_.emplace(damping_body_ ? stiffened(body_, of_multigrid_.damping, *damping_body_) : body_,
                        n_threads_, smoother_in_motion);
-    multigrid_->set_diagonal(multigrid_->scale() * vectors_.to_field(diagonal(), in_));
+    SpringLevels::Operator joined;
+    if (cell_masses_) {
+      masses_of_cycle_.emplace(body_, *cell_masses_, n_threads_);
+      joined = [this, scale = multigrid_->scale()](const Field<float>& direction, Field<float>& product) {
+        masses_of_cycle_->add_product(scale * of_multigrid_.mass, scale * of_multigrid_.damping, direction,
+                                      product);
+      };
+    }
+    multigrid_->set_diagonal(multigrid_->scale() * vectors_.to_field(diagonal(), in_), std::move(joined));
     speed_.forget();
     real_time_.reset();
     is_set_ = false;

@@ -75,6 +75,7 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
 
   Field<float> displacement;
   Field<float> diagonal; ///< added to that of the springs; empty: none
+  Operator joined;       ///< added to the product; empty: none
 
   void restrict_diagonal() {
     diagonal.setZero(displacement.size());
@@ -84,10 +85,13 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
   void linearise() override {
     if (finer_) transfer_->sample(finer_->displacement, displacement);
     springs_.inverse_diagonal(Clamp::yes, displacement, inverse_diagonal_, diagonal);
+    constexpr float small = 0.1f; // share of the masses below which the smoother does without
+    has_joined_ = joined && diagonal.cwiseProduct(inverse_diagonal_.head(diagonal.size())).maxCoeff() > small;
   }
   void multiply(Field<float>& direction, Field<float>& product) const override {
     springs_.product(Clamp::yes, displacement, direction, product);
     if (diagonal.size() > 0) add_product(product, diagonal, direction, n_threads_);
+    if (has_joined_) joined(direction, product);
   }
   double norm(const Field<float>& field) const override { return grid::norm(body_, field, n_threads_); }
   void set_rough(Field<float>& rough) const override {
@@ -131,6 +135,7 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
 
  private:
   const Body& body_;
+  bool has_joined_ = false;
   SpringField<float> springs_;
   const SpringLevel* finer_;
   std::optional<Transfer<float>> transfer_; ///< between the finer level and this one
@@ -151,7 +156,8 @@ SpringLevels::SpringLevels(const Body& finest, int n_threads, const Chebyshev& s
     add_merged_levels(bodies_.front(), first.displacement, first.diagonal, n_threads, cycle_.levels);
 }
 
-void SpringLevels::set_diagonal(const Field<double>& diagonal) {
+void SpringLevels::set_diagonal(const Field<double>& diagonal, Operator joined) {
+  rediscretised_.front()->joined = std::move(joined);
   rediscretised_.front()->diagonal.resize(diagonal.size());
   for_each_piece(diagonal.size(), n_threads_, [&](std::ptrdiff_t first, std::ptrdiff_t n) {
     rediscretised_.front()->diagonal.segment(first, n) = diagonal.segment(first, n).cast<float>();

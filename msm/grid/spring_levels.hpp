@@ -30,9 +30,13 @@ class SpringLevels {
   double scale() const { return scale_; }
   int n_levels() const { return static_cast<int>(cycle_.levels.size()); }
 
+  using Operator = std::function<void(const Field<float>& direction, Field<float>& product)>;
   /// Sets the added diagonal from the next linearise() on.
   /// @param diagonal  N/mm times scale(), on the finest body; 0 on constrained entries
-  void set_diagonal(const Field<double>& diagonal);
+  /// @param joined    adds what consistent masses have beyond the lumped ones of the diagonal; empty:
+  /// nothing.
+  ///                  The finest level has it where the masses are no small part of a node's diagonal.
+  void set_diagonal(const Field<double>& diagonal, Operator joined = {});
 
   /// Prepares the cycle at a displacement of the finest body, mm.
   void linearise(const Field<double>& displacement);
