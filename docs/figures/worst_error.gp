@@ -24,11 +24,12 @@ set linetype 9 lc rgb '#888888' lw 1.5 dt (3,4) pt 8
 set linetype 10 lc rgb '#888888' lw 1.5 dt (12,4,3,4) pt 12
 set linetype 11 lc rgb '#888888' lw 1.5 dt (20,5) pt 10
 set linetype 12 lc rgb '#444444' lw 1.5 dt solid pt 1
+set linetype 13 lc rgb '#000000' lw 2 dt solid pt 15
 # In the order of the columns.
 array titles = ['linear method (thesis, ch. 4)', 'nonlinear method (ch. 5)', 'moduli: springs alone', \
-                'hybrid: springs and cell volume', 'matched: hybrid that softens', 'multi-load fit', 'Ladd and Kinney', 'Baudet', \
+                'hybrid: springs and cell volume', 'matched: hybrid that softens', 'midline: right on coarse cells', 'multi-load fit', 'Ladd and Kinney', 'Baudet', \
                 'uniform: one stiffness', 'Van Gelder', 'Lloyd', 'biquadratic (Delingette)']
-array styles = [2, 4, 3, 1, 6, 5, 7, 8, 12, 9, 10, 11]
+array styles = [2, 4, 3, 1, 6, 13, 5, 7, 8, 12, 9, 10, 11]
 n = |titles|
 set multiplot
 set xlabel 'Poisson''s ratio of the tissue'
@@ -40,7 +41,7 @@ set rmargin at screen 0.32
 plot for [d = 1:n] 'worst_error.csv' using 1:(column(d + 1) > 0 ? column(d + 1) : NaN) with linespoints lt styles[d] notitle
 set ylabel ''
 set title 'large loads'
-set key at screen 0.67, 0.95 left top Left reverse samplen 3 spacing 1.3 maxrows 12 maxcols 1
+set key at screen 0.67, 0.95 left top Left reverse samplen 3 spacing 1.15 maxrows 13 maxcols 1
 set lmargin at screen 0.38
 set rmargin at screen 0.64
 plot for [d = 1:n] 'worst_error.csv' using 1:(column(d + 1 + n) > 0 ? column(d + 1 + n) : NaN) with linespoints lt styles[d] title titles[d]
