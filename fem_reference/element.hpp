@@ -117,7 +117,7 @@ class CellKernel {
   CellResult result_;
   Eigen::VectorXd force_;            ///< on all functions
   RowMajorMatrix stiffness_;         ///< between all functions
-  std::vector<double> displacement_; ///< of all functions
+  std::vector<double> displacement_; ///< one for each function and component
   RowMajorMatrix volume_gradient_;   ///< (mode, dof): B
   std::vector<double> right_factor_; ///< w A grad N: [((i*n_points + q)*3 + J)*n_dofs + dof]
 };

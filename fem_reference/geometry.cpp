@@ -92,7 +92,7 @@ Geometry::Geometry(const Space& space, const Nodes& nodes, const ElementType& el
       weights_.push_back(values.JxW(q));
       for (unsigned j = 0; j < 3; ++j) {
         for (const unsigned a : values.dof_indices()) gradients_.push_back(values.shape_grad(a, q)[j]);
-        // Of 4 x_b (1 - x_b), by the map at the centre, so that it is 0 in the mean.
+        // Gradient of 4 x_b (1 - x_b), by the map at the centre, so that it is 0 in the mean.
         for (unsigned b = 0; b < static_cast<unsigned>(n_bubbles_); ++b)
           gradients_.push_back((4 - 8 * quadrature.point(q)[b]) * centre.inverse_jacobian(0)[b][j] *
                                centre.JxW(0) * quadrature.weight(q) / values.JxW(q));

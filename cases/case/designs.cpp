@@ -48,7 +48,7 @@ const std::vector<DesignFacts>& all_designs() {
        DesignRatio{0}},
       {D::midline,
        "the matched's moduli and curves, and bending as a bar's, by springs between the centres of faces",
-       "docs/developing/design-theory.md",
+       "docs/developing/midlines.md",
        {"poissons_ratio", "split", "strain_range", "beta"},
        DesignLaw::fitted_or_hooke,
        DesignMaterial::any,

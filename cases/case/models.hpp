@@ -68,7 +68,7 @@ struct Msm {
   Solver solver = Solver::newton;
   std::optional<double> poissons_ratio; ///< design from another nu than the material's
   std::optional<double> split; ///< t of the moduli, hybrid, matched, midline and multi_load designs, 0 to 1
-  std::optional<double> beta;  ///< of the midline design: resistance to bending over a slender bar's
+  std::optional<double> beta;  ///< resistance to bending over a slender bar's; midline
   std::optional<std::array<double, 3>> stiffness; ///< N/m: k_e, k_f, k_d; design = "given"
   /// N/m: k_e along x, y, z; k_f in the faces across x, y, z; k_d; design = "given", in place of stiffness
   std::optional<std::array<double, 7>> axis_stiffness;

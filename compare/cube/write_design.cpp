@@ -219,9 +219,9 @@ void write_design_text(std::ostream& out, const DesignAttempt& attempt) {
     fmt::print(out, "  k_e, k_f, k_d    {:.6g} N/m\n", fmt::join(scaled(k, 1e3).springs(), ", "));
   if (k.volume != 0) fmt::print(out, "  k_v              {:.6g} MPa\n", k.volume);
   if (k.midline != 0)
-    fmt::print(out, "  k_m              {:.6g} N/m, where a body is {}\n", 1e3 * k.midline,
-               attempt.options.beta ? fmt::format("given beta = {:g}", *attempt.options.beta)
-                                    : "many cells thick (beta = 0.8)");
+    fmt::print(out, "  k_m              {:.6g} N/m, {}\n", 1e3 * k.midline,
+               attempt.options.beta ? fmt::format("beta = {:g}", *attempt.options.beta)
+                                    : "where a body is many cells thick (beta = 0.8)");
   if (k.exponents) fmt::print(out, "  exponents        {:.6g}\n", fmt::join(k.exponents->by_kind, ", "));
   if (design.residual) fmt::print(out, "  residual         {:.6g}\n", *design.residual);
   if (design.by_fibre)

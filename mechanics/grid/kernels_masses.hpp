@@ -21,8 +21,8 @@ SPRINGPROOF_INLINE void join_rows(P (&rows)[4]) {
   join(rows[1], rows[3]);
 }
 
-/// product += mass * field for layer k of cells, on the planes k and k + 1 of nodes. It runs through the rows
-/// of cells as through one, each of which ends without a cell.
+/// product += mass * field for layer k of cells, on the planes k and k + 1 of nodes. Rows of cells, each of
+/// which ends without a cell, are run through as one.
 template<class Real>
 void mass_layer(const mechanics::grid::Layout& layout, const mechanics::grid::Masses<Real>& masses,
                 const Real* field, Real* product, int k) {

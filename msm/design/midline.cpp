@@ -4,6 +4,7 @@
 #include "msm/design/request.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace springproof::msm {
@@ -100,14 +101,14 @@ class BendingErrors {
  private:
   Eigen::Matrix<double, 6, 1> youngs_moduli_;
   std::vector<Bar> bars_;
-  std::array<std::array<Eigen::Matrix2d, 4>, 6> energies_; ///< of each bar: without edges, and of each axis's
+  std::array<std::array<Eigen::Matrix2d, 4>, 6> energies_; ///< each bar's: without edges, and by axis
 };
 
 } // namespace
 
 double edge_part(double poissons_ratio, double split, double beta) {
   const double m = (1 + poissons_ratio) / 3, f = 1 - split;
-  return beta * (m - f + std::hypot(m, f)) / (1 + split);
+  return std::min(1., beta * (m - f + std::hypot(m, f)) / (1 + split));
 }
 
 double default_beta(int cells_across) {
@@ -143,7 +144,7 @@ void add_midlines(CellTerms& terms, const CellVertices& vertices, double beta) {
   options.function_tolerance = options.gradient_tolerance = options.parameter_tolerance = 1e-14;
   // A cell too distorted to be bent like a bar keeps its edges.
   if (!minimise(problem, options).IsSolutionUsable()) r = {1, 1, 1};
-  for (double& part : r) part *= beta;
+  for (double& part : r) part = std::min(1., part * beta);
   terms = divided(terms, r.data());
 }
 

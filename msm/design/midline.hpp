@@ -5,12 +5,13 @@
 /// Springs between the centres of a cell's opposite faces, the midlines, which take over a part of the edges'
 /// stiffness: four edges of equal elongation and a midline of the same elongation are one spring, so that
 /// moduli and curves stay what they are, whereas a midline does not resist the cell's bending, which edges
-/// alone resist too much. Derived in docs/developing/design-theory.md.
+/// alone resist too much. Derived in docs/developing/midlines.md.
 namespace springproof::msm {
 
 /// The part r of the edges' stiffness that stays with them in a cube, beta times the one with which a
 /// slender bar of one cell across bends as its material does:
 ///   r = beta [m - f + sqrt(m² + f²)]/(1 + t),  m = (1 + nu)/3,  f = 1 - t.
+/// At most 1, where nothing is left for midlines.
 /// @param split  t, 0 to 1, of hybrid_method()
 double edge_part(double poissons_ratio, double split, double beta);
 

@@ -20,7 +20,7 @@ struct DesignRequest {
   std::optional<UniaxialCurve> uniaxial_reference; ///< measured or given curve instead of the material's own
   /// Number of cells from which on designs see no difference.
   static constexpr int many_cells = 8;
-  int cells_across = many_cells; ///< of the body where the cell is: cases::cells_across()
+  int cells_across = many_cells; ///< the body's, where the cell is: cases::cells_across()
 };
 
 /// @throws InputError at the case's [msm]
