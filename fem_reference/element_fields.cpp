@@ -31,7 +31,7 @@ namespace {
 void add(mechanics::FieldSums& sums, const cases::Scene& scene, const std::vector<Vector3d>& nodes,
          const ElementState& element, bool is_linear, const Eigen::VectorXd& force, double energy) {
   const auto& [place, geometry, displacement, internal] = element;
-  const std::array<int, 8> vertices = scene.mesh.cells[place.cell];
+  const cases::CellNodes vertices = scene.mesh.cells[place.cell];
   const std::array<Vector3d, 8> corners = cases::cell_vertices(scene.mesh, place.cell);
   const Vector3d first(displacement);
   mechanics::CellSums& sum = sums.cell(place.cell);

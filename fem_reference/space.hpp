@@ -24,7 +24,7 @@ struct Space {
     for (const Eigen::Vector3d& node : scene.mesh.nodes) vertices.emplace_back(node.x(), node.y(), node.z());
     std::vector<dealii::CellData<3>> cells(scene.mesh.cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      const std::array<int, 8> nodes = scene.mesh.cells[c];
+      const cases::CellNodes nodes = scene.mesh.cells[c];
       cells[c].vertices.assign(nodes.begin(), nodes.end());
     }
     mesh.create_triangulation(vertices, cells, dealii::SubCellData());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanics/hexahedron.hpp"
+#include "cases/mesh/cell_shape.hpp"
 
 #include <Eigen/LU>
 
@@ -21,17 +21,19 @@ inline Eigen::MatrixXd shape_products(int n, int n_points, const double* shape_v
   return products;
 }
 
-/// The same of a trilinear hexahedron by the 2x2x2 Gauss rule, as the finite elements have it: exact for
-/// parallelepipeds, and for the sums of rows of others.
-inline Eigen::MatrixXd shape_products(const HexahedronVertices& vertices, double density) {
-  std::array<double, 64> shapes;
-  std::array<double, 8> weights;
-  for (int q = 0; q < 8; ++q) {
-    const std::array<double, 8> shape = shape_values(gauss_point(q));
-    for (std::size_t a = 0; a < 8; ++a) shapes[8 * static_cast<std::size_t>(q) + a] = shape[a];
-    weights[static_cast<std::size_t>(q)] = jacobian(vertices, gauss_point(q)).determinant() / 8;
+/// The same of a cell by the rule of its reference cell, as the finite elements have it: exact for
+/// parallelepipeds and tetrahedra, and for the sums of rows of other hexahedra.
+inline Eigen::MatrixXd shape_products(const cases::CellCorners& corners, double density) {
+  const cases::ReferenceCell& cell = cases::reference_cell(cases::shape_of(corners.size()));
+  std::vector<double> shapes, weights;
+  for (const Eigen::Vector3d& point : cell.points) {
+    const cases::ShapeValues shape = cases::shape_values(cell.shape, point);
+    shapes.insert(shapes.end(), shape.begin(), shape.end());
+    weights.push_back(cases::jacobian(corners, point).determinant() * cell.volume /
+                      double(cell.points.size()));
   }
-  return shape_products(8, 8, shapes.data(), weights.data(), density);
+  return shape_products(static_cast<int>(corners.size()), static_cast<int>(weights.size()), shapes.data(),
+                        weights.data(), density);
 }
 
 } // namespace springproof::mechanics

@@ -22,7 +22,7 @@ class StateOnMesh {
   };
   /// @param mesh     must outlive this
   /// @param sharing  null: one rank has all
-  StateOnMesh(const cases::HexMesh& mesh, std::shared_ptr<const cases::Sharing> sharing, Parts parts)
+  StateOnMesh(const cases::Mesh& mesh, std::shared_ptr<const cases::Sharing> sharing, Parts parts)
       : mesh_(mesh), sharing_(std::move(sharing)), parts_(std::move(parts)) {}
 
   /// Puts the displacement, the cells' volumes and the number of inverted cells into a solution, which the
@@ -46,7 +46,7 @@ class StateOnMesh {
   }
 
  private:
-  const cases::HexMesh& mesh_;
+  const cases::Mesh& mesh_;
   std::shared_ptr<const cases::Sharing> sharing_;
   Parts parts_;
 

@@ -23,6 +23,24 @@ void for_each_corner(const Action& action) {
   }
 }
 
+/// Calls action(a, b, c) for every vertex a of every face of a tetrahedron; b, c follow it around the face.
+template<class Action>
+void for_each_corner_of_tetrahedron(const Action& action) {
+  constexpr std::array<std::array<std::size_t, 3>, 4> faces{{{0, 3, 2}, {0, 1, 3}, {0, 2, 1}, {1, 2, 3}}};
+  for (const auto& [a, b, c] : faces) {
+    action(a, b, c);
+    action(b, c, a);
+    action(c, a, b);
+  }
+}
+
+/// The matrix whose product with v is v x w.
+Matrix3d minus_cross(const Vector3d& w) {
+  Matrix3d cross;
+  cross << 0, w.z(), -w.y(), -w.z(), 0, w.x(), w.y(), -w.x(), 0;
+  return cross;
+}
+
 Matrix3d edges_from_first(const TetrahedronPositions& x) {
   Matrix3d edges;
   for (int c = 0; c < 3; ++c) edges.col(c) = x[static_cast<std::size_t>(c + 1)] - x[0];
@@ -41,8 +59,8 @@ void for_each_edge(const TetrahedronPositions& x, const Action& action) {
 
 } // namespace
 
-std::array<Vector3d, 8> trilinear_volume_gradient(const CellPositions& x) {
-  std::array<Vector3d, 8> gradient;
+Positions<8> volume_gradient(const Positions<8>& x) {
+  Positions<8> gradient;
   gradient.fill(Vector3d::Zero());
   for_each_corner([&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
     gradient[a] += (x[b].cross(x[c] + x[d]) + x[c].cross(x[d])) / 12;
@@ -50,45 +68,53 @@ std::array<Vector3d, 8> trilinear_volume_gradient(const CellPositions& x) {
   return gradient;
 }
 
-double trilinear_volume(const CellPositions& x) {
-  const std::array<Vector3d, 8> gradient = trilinear_volume_gradient(x);
+Positions<4> volume_gradient(const Positions<4>& x) {
+  Positions<4> gradient;
+  gradient.fill(Vector3d::Zero());
+  for_each_corner_of_tetrahedron(
+      [&](std::size_t a, std::size_t b, std::size_t c) { gradient[a] += x[b].cross(x[c]) / 6; });
+  return gradient;
+}
+
+cases::CellCorners volume_gradient(const cases::CellCorners& x) {
+  const auto of = [&x](auto positions) {
+    std::copy(x.begin(), x.end(), positions.begin());
+    positions = volume_gradient(positions);
+    return cases::CellCorners(positions.begin(), positions.end());
+  };
+  return x.size() == 4 ? of(Positions<4>()) : of(Positions<8>());
+}
+
+double volume_of(const Positions<8>& x) {
+  const Positions<8> gradient = volume_gradient(x);
   double triple = 0; // Euler: a cubic form is a third of its gradient times its argument
   for (std::size_t a = 0; a < 8; ++a) triple += x[a].dot(gradient[a]);
   return triple / 3;
 }
 
-std::array<std::array<Matrix3d, 8>, 8> trilinear_volume_second_derivative(const CellPositions& x) {
-  std::array<std::array<Matrix3d, 8>, 8> blocks;
+double volume_of(const Positions<4>& x) {
+  return edges_from_first(x).determinant() / 6;
+}
+
+Blocks<8> volume_second_derivative(const Positions<8>& x) {
+  Blocks<8> blocks;
   for (auto& row : blocks) row.fill(Matrix3d::Zero());
-  const auto add = [](Matrix3d& block, const Vector3d& w) { // T_abc x_c
-    Matrix3d cross;
-    cross << 0, w.z(), -w.y(), -w.z(), 0, w.x(), w.y(), -w.x(), 0;
-    block += cross;
-  };
   for_each_corner([&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
     for (const auto& [second, third, sign] :
          {std::tuple(b, c, 1), {b, d, 1}, {c, d, 1}, {c, b, -1}, {d, b, -1}, {d, c, -1}})
-      add(blocks[a][second], sign / 12. * x[third]);
+      blocks[a][second] += minus_cross(sign / 12. * x[third]);
   });
   return blocks;
 }
 
-double VolumeCell::small_motion_energy(const CellPositions& rest, const CellPositions& motion) const {
-  const auto gradient = trilinear_volume_gradient(rest);
-  double change = 0;
-  for (std::size_t v = 0; v < 8; ++v) change += gradient[v].dot(motion[v]);
-  return 0.5 * stiffness / rest_volume * change * change;
-}
-
-CellPositions VolumeCell::forces(const CellPositions& x) const {
-  const double pressure = stiffness * law(x).pressure;
-  CellPositions all = trilinear_volume_gradient(x);
-  for (Vector3d& force : all) force *= -pressure;
-  return all;
-}
-
-double tetrahedron_volume(const TetrahedronPositions& x) {
-  return edges_from_first(x).determinant() / 6;
+Blocks<4> volume_second_derivative(const Positions<4>& x) {
+  Blocks<4> blocks;
+  for (auto& row : blocks) row.fill(Matrix3d::Zero());
+  for_each_corner_of_tetrahedron([&](std::size_t a, std::size_t b, std::size_t c) {
+    blocks[a][b] += minus_cross(x[c] / 6);
+    blocks[a][c] -= minus_cross(x[b] / 6);
+  });
+  return blocks;
 }
 
 EdgeMatrix biquadratic_stiffness(const TetrahedronPositions& rest, double lambda, double mu) {
@@ -102,7 +128,7 @@ EdgeMatrix biquadratic_stiffness(const TetrahedronPositions& rest, double lambda
     const Matrix3d product = gradient.col(a) * gradient.col(b).transpose();
     shapes[e] = 0.5 * (product + product.transpose());
   }
-  const double volume = std::abs(tetrahedron_volume(rest));
+  const double volume = std::abs(volume_of(rest));
   EdgeMatrix stiffness;
   for (std::size_t e = 0; e < 6; ++e)
     for (std::size_t f = 0; f < 6; ++f)

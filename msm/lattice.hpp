@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "msm/spring.hpp"
 
 #include <optional>
@@ -47,27 +47,34 @@ inline CellStiffness scaled(CellStiffness k, double factor) {
   return k;
 }
 
-/// Volume of the trilinear hexahedron, mm³, and its derivatives. It is a cubic form of the vertices,
-///   V = 1/6 sum_abc T_abc x_a . (x_b x x_c),
-/// with T constant and antisymmetric, so that all three are exact. The volume under a bilinear face a, b, c,
-/// d, anticlockwise from outside, is the mean of what its two triangulations give: it adds (b x c + c x d + b
-/// x d) / 12 to the derivative with respect to a.
-double trilinear_volume(const CellPositions& x);
-
-/// dV/dx_a, mm².
-std::array<Eigen::Vector3d, 8> trilinear_volume_gradient(const CellPositions& x);
-
-/// d²V/(dx_a dx_b) as 3x3 blocks [a][b], mm: entry (i, j) = epsilon_ijk (sum_c T_abc x_c)_k.
-std::array<std::array<Eigen::Matrix3d, 8>, 8> trilinear_volume_second_derivative(const CellPositions& x);
-
 /// Where the nodes of a term are, mm.
 template<std::size_t n>
 using Positions = std::array<Eigen::Vector3d, n>;
 
+/// Volume of the trilinear hexahedron and of the tetrahedron, mm³, and its derivatives. It is a cubic form of
+/// the vertices,
+///   V = 1/6 sum_abc T_abc x_a . (x_b x x_c),
+/// with T constant and antisymmetric, so that all three are exact. The volume under a bilinear face a, b, c,
+/// d, anticlockwise from outside, is the mean of what its two triangulations give: it adds (b x c + c x d + b
+/// x d) / 12 to the derivative with respect to a. A triangle a, b, c adds b x c / 6.
+double volume_of(const Positions<8>& x);
+double volume_of(const Positions<4>& x);
+
+/// dV/dx_a, mm².
+Positions<8> volume_gradient(const Positions<8>& x);
+Positions<4> volume_gradient(const Positions<4>& x);
+cases::CellCorners volume_gradient(const cases::CellCorners& x);
+
+/// d²V/(dx_a dx_b) as 3x3 blocks [a][b], mm: entry (i, j) = epsilon_ijk (sum_c T_abc x_c)_k.
+template<std::size_t n>
+using Blocks = std::array<std::array<Eigen::Matrix3d, n>, n>;
+Blocks<8> volume_second_derivative(const Positions<8>& x);
+Blocks<4> volume_second_derivative(const Positions<4>& x);
+
 /// Two points joined by a spring. Springs of one law that cells share are one link with the sum of the cells'
 /// stiffnesses.
 ///
-/// The terms of a lattice are of several kinds: links, Midline, VolumeCell, Tetrahedron. Every kind has, by
+/// The terms of a lattice are of several kinds: links, Midline, VolumeTerm, Tetrahedron. Every kind has, by
 /// its nodes' positions x, the `energy`, N mm; the `forces` on the nodes, N, minus its gradient; the
 /// `tangent`, its second derivative: a function that returns the 3x3 block of two nodes, N/mm, clamped such
 /// that the whole is positive semidefinite where no stiffness is negative; and the `small_motion_energy` of a
@@ -122,33 +129,58 @@ struct Midline {
   }
 };
 
-/// A cell that resists a change of its volume. Clamped, its tangent is without the second derivative of the
-/// volume under pressure.
-struct VolumeCell {
-  static constexpr auto& edges = cases::cell_edges;
-  std::array<int, 8> nodes; ///< vertex v = i + 2j + 4k
+inline constexpr std::array<std::array<int, 2>, 6> tetrahedron_edges{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+/// The edges of a cell of n vertices.
+template<std::size_t n>
+constexpr const auto& edges_of_cell() {
+  if constexpr (n == 4)
+    return tetrahedron_edges;
+  else
+    return cases::cell_edges;
+}
+
+/// A cell of n vertices that resists a change of its volume. Clamped, its tangent is without the second
+/// derivative of the volume under pressure.
+template<std::size_t n>
+struct VolumeTerm {
+  static constexpr auto& edges = edges_of_cell<n>();
+  std::array<int, n> nodes; ///< in the order of the reference cell
   double stiffness;         ///< k_v, MPa
   double rest_volume;       ///< mm³
   bool is_logarithmic = false;
 
   /// Returns the cell's law at these positions.
-  VolumeLaw law(const CellPositions& x) const {
-    return volume_law(trilinear_volume(x) / rest_volume, is_logarithmic);
+  VolumeLaw law(const Positions<n>& x) const {
+    return volume_law(volume_of(x) / rest_volume, is_logarithmic);
   }
-  double energy(const CellPositions& x) const { return stiffness * rest_volume * law(x).integral; }
-  double small_motion_energy(const CellPositions& rest, const CellPositions& motion) const;
-  CellPositions forces(const CellPositions& x) const;
-  auto tangent(const CellPositions& x, Clamp clamp) const {
+  double energy(const Positions<n>& x) const { return stiffness * rest_volume * law(x).integral; }
+  double small_motion_energy(const Positions<n>& rest, const Positions<n>& motion) const {
+    const Positions<n> gradient = volume_gradient(rest);
+    double change = 0;
+    for (std::size_t v = 0; v < n; ++v) change += gradient[v].dot(motion[v]);
+    return 0.5 * stiffness / rest_volume * change * change;
+  }
+  Positions<n> forces(const Positions<n>& x) const {
+    const double pressure = stiffness * law(x).pressure;
+    Positions<n> all = volume_gradient(x);
+    for (Eigen::Vector3d& force : all) force *= -pressure;
+    return all;
+  }
+  auto tangent(const Positions<n>& x, Clamp clamp) const {
     const VolumeLaw at = law(x);
     return [=, pressure = stiffness * at.pressure, slope = stiffness / rest_volume * at.slope,
-            gradient = trilinear_volume_gradient(x),
-            second = trilinear_volume_second_derivative(x)](std::size_t a, std::size_t b) -> Eigen::Matrix3d {
+            gradient = volume_gradient(x),
+            second = volume_second_derivative(x)](std::size_t a, std::size_t b) -> Eigen::Matrix3d {
       Eigen::Matrix3d block = slope * gradient[a] * gradient[b].transpose();
       if (clamp == Clamp::no) block += pressure * second[a][b];
       return block;
     };
   }
 };
+using VolumeCell = VolumeTerm<8>;
+using VolumeTetrahedron = VolumeTerm<4>;
 
 /// Tetrahedra of biquadratic springs: energies of the changes of squared lengths, Delta_e = l_e² - L_e², of
 /// the six edges,
@@ -157,16 +189,10 @@ struct VolumeCell {
 /// As the Green strain of a linear tetrahedron is -1/2 sum_e Delta_e B_e, this is the St. Venant-Kirchhoff
 /// energy V (mu E : E + lambda/2 (tr E)²) of the linear finite element.
 /// Source: Delingette 2008 (in two dimensions: triangular biquadratic springs), in three dimensions.
-inline constexpr std::array<std::array<int, 2>, 6> tetrahedron_edges{
-    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
 using TetrahedronPositions = Positions<4>;
 using EdgeValues = Eigen::Matrix<double, 6, 1>; ///< in the order of tetrahedron_edges
 using EdgeMatrix = Eigen::Matrix<double, 6, 6>;
 using TetrahedronMatrix = Eigen::Matrix<double, 12, 12>;
-
-/// @return mm³, positive or negative as the vertices are ordered
-double tetrahedron_volume(const TetrahedronPositions& x);
 
 /// K of the energy above, N/mm³.
 /// @param rest  mm, of a volume that is not 0    @param lambda, mu  MPa
@@ -208,6 +234,7 @@ struct Lattice {
   Points rest; ///< mm
   std::vector<Link> links;
   std::vector<VolumeCell> volume_cells; ///< empty when no cell has a volume term
+  std::vector<VolumeTetrahedron> volume_tetrahedra{};
   std::vector<Tetrahedron> tetrahedra{};
   std::vector<Midline> midlines{};
 };
@@ -218,6 +245,7 @@ template<class AnyLattice, class Action>
 void for_each_kind(AnyLattice& lattice, const Action& action) {
   action(lattice.links);
   action(lattice.volume_cells);
+  action(lattice.volume_tetrahedra);
   action(lattice.tetrahedra);
   action(lattice.midlines);
 }

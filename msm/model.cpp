@@ -165,10 +165,10 @@ Points start_of(const cases::Scene& scene, const SpringBody& springs, const Mode
 }
 
 /// Volume of a body, mm³.  @param displacement  mm, one per node
-double volume_of(const cases::HexMesh& mesh, const Points& displacement) {
+double volume_of(const cases::Mesh& mesh, const Points& displacement) {
   double sum = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    sum += cases::cell_volume(cases::cell_vertices(mesh, c, displacement));
+    sum += cases::cell_volume(cases::cell_corners(mesh, c, displacement));
   return sum;
 }
 
@@ -210,26 +210,27 @@ using Eigen::Vector3d;
 
 /// A cell as its first vertex sees it, at rest and displaced: far from the origin positions have lost digits.
 struct SeenCell {
-  CellPositions rest, motion, now; ///< mm
+  cases::CellCorners rest, motion, now; ///< mm
   /// @param displacement  one per node from first_node on
-  SeenCell(const cases::HexMesh& mesh, std::size_t cell, const Points& displacement, std::size_t first_node) {
-    const std::array<int, 8> nodes = mesh.cells[cell];
+  SeenCell(const cases::Mesh& mesh, std::size_t cell, const Points& displacement, std::size_t first_node) {
+    const cases::CellNodes nodes = mesh.cells[cell];
     const auto moved = [&](int node) -> const Vector3d& { return displacement[index(node) - first_node]; };
     const Vector3d corner = mesh.nodes[index(nodes[0])];
-    for (std::size_t v = 0; v < 8; ++v) {
-      rest[v] = mesh.nodes[index(nodes[v])] - corner;
-      motion[v] = moved(nodes[v]) - moved(nodes[0]);
-      now[v] = rest[v] + motion[v];
+    for (const int node : nodes) {
+      rest.push_back(mesh.nodes[index(node)] - corner);
+      motion.push_back(moved(node) - moved(nodes[0]));
+      now.push_back(rest.back() + motion.back());
     }
   }
 };
 
 /// Adds what a cell is without its springs.
 void add_shape(mechanics::CellSums& sum, const SeenCell& cell) {
-  sum.rest_volume() = trilinear_volume(cell.rest);
-  sum.volume() = trilinear_volume(cell.now);
-  const auto mean_gradient = trilinear_volume_gradient(cell.rest); // integrals of grad N_a, mm²
-  for (std::size_t v = 0; v < 8; ++v) sum.gradient() += cell.motion[v] * mean_gradient[v].transpose();
+  sum.rest_volume() = cases::cell_volume(cell.rest);
+  sum.volume() = cases::cell_volume(cell.now);
+  const auto gradient = volume_gradient(cell.rest); // integrals of grad N_a, mm²
+  for (std::size_t v = 0; v < gradient.size(); ++v)
+    sum.gradient() += cell.motion[v] * gradient[v].transpose();
 }
 
 mechanics::FieldsOf how_of(const cases::Scene& scene, const cases::Solution& solution, double load_factor) {
@@ -251,8 +252,8 @@ cases::Fields fields_of_cells(const cases::Scene& scene, const SpringBody& sprin
     const Lattice lattice = cell_lattice(terms, cell.rest);
     const Points motion(cell.motion.begin(), cell.motion.end()), force = internal_force_at(lattice, motion);
     sum.energy() += energy_at(lattice, motion);
-    const std::array<int, 8> nodes = scene.mesh.cells[c];
-    for (std::size_t v = 0; v < 8; ++v) {
+    const cases::CellNodes nodes = scene.mesh.cells[c];
+    for (std::size_t v = 0; v < nodes.size(); ++v) {
       sum.virial() -= force[v] * cell.now[v].transpose();
       sums.force(index(nodes[v])) -= force[v];
     }

@@ -1,6 +1,6 @@
 #include "msm/moving_springs.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "cases/scene/loads.hpp"
 #include "mechanics/shape_products.hpp"
 #include "msm/tangent.hpp"
@@ -29,22 +29,22 @@ std::vector<double> cell_masses(const cases::Scene& scene) {
   std::vector<double> masses;
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
     masses.push_back(cases::dynamics_of(scene, c).density *
-                     cases::cell_volume(cases::cell_vertices(scene.mesh, c)));
+                     cases::cell_volume(cases::cell_corners(scene.mesh, c)));
   return masses;
 }
 
 } // namespace
 
-std::vector<Eigen::Triplet<double>> masses_beyond_lumped(const cases::HexMesh& mesh,
+std::vector<Eigen::Triplet<double>> masses_beyond_lumped(const cases::Mesh& mesh,
                                                          const std::vector<double>& cell_mass) {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t c = 0; c < cell_mass.size(); ++c) {
-    const auto vertices = cases::cell_vertices(mesh, c);
-    Eigen::MatrixXd masses = mechanics::shape_products(vertices, cell_mass[c] / cases::cell_volume(vertices));
-    masses.diagonal().array() -= cell_mass[c] / 8;
-    const std::array<int, 8>& nodes = mesh.cells[c];
-    for (int a = 0; a < 8; ++a)
-      for (int b = 0; b < 8; ++b)
+    const cases::CellCorners corners = cases::cell_corners(mesh, c);
+    Eigen::MatrixXd masses = mechanics::shape_products(corners, cell_mass[c] / cases::cell_volume(corners));
+    masses.diagonal().array() -= cell_mass[c] / static_cast<double>(corners.size());
+    const cases::CellNodes nodes = mesh.cells[c];
+    for (int a = 0; a < masses.rows(); ++a)
+      for (int b = 0; b < masses.cols(); ++b)
         for (int i = 0; i < 3; ++i)
           entries.emplace_back(3 * nodes[cases::index(a)] + i, 3 * nodes[cases::index(b)] + i, masses(a, b));
   }

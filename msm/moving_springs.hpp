@@ -108,7 +108,7 @@ struct Inertia {
 /// What consistent masses of a mesh's cells have beyond eighths on the diagonal, by degrees of freedom 3*node
 /// + component.
 /// @param cell_mass  t or t/s, one entry per cell; empty: no entries
-std::vector<Eigen::Triplet<double>> masses_beyond_lumped(const cases::HexMesh& mesh,
+std::vector<Eigen::Triplet<double>> masses_beyond_lumped(const cases::Mesh& mesh,
                                                          const std::vector<double>& cell_mass);
 
 /// @param damping  the lattice of damping_springs()

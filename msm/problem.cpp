@@ -60,13 +60,13 @@ Problem make_moving_problem(const cases::Scene& scene) {
   return {scene.mesh, {}, {}, cases::constrained_dofs(scene), moving_supports(scene, factor)};
 }
 
-void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution) {
+void measure_cells(const cases::Mesh& mesh, cases::Solution& solution) {
   const cases::Sharing* const sharing = solution.sharing.get();
   const auto [own_nodes, cells, nodes] = cases::share_here(mesh, sharing);
   solution.cell_volume.clear();
   for (std::size_t c = cells.begin; c < cells.end; ++c)
     solution.cell_volume.push_back(
-        cases::cell_volume(cases::cell_vertices(mesh, c, solution.displacement, nodes.begin)));
+        cases::cell_volume(cases::cell_corners(mesh, c, solution.displacement, nodes.begin)));
   solution.inverted_cells = cases::n_inverted(mesh, solution.displacement, sharing);
 }
 

@@ -14,7 +14,7 @@ constexpr std::size_t most_factorised = 40000;
 
 /// A supported and loaded lattice.
 struct Problem {
-  cases::HexMesh mesh;
+  cases::Mesh mesh;
   Lattice lattice;
   std::vector<cases::NodeVector> force; ///< applied at full load, N
   std::vector<bool> is_constrained;     ///< constrained degrees of freedom: 3*point + component
@@ -38,7 +38,7 @@ std::size_t n_unknowns(const Problem& problem);
 
 /// Fills in what a solution's displacement says of the mesh's cells: deformed volumes, and how many are
 /// inverted. Collective over the ranks that share it.
-void measure_cells(const cases::HexMesh& mesh, cases::Solution& solution);
+void measure_cells(const cases::Mesh& mesh, cases::Solution& solution);
 
 /// What an equilibrium and its displacement (mm, one per point that is here) say of a problem.
 /// @param sharing  the ranks that share the displacement; null: all of it is here

@@ -13,7 +13,7 @@ namespace {
 
 using cases::index;
 
-std::pair<int, int> nodes_of(const std::array<int, 8>& cell, const CellSpring& spring) {
+std::pair<int, int> nodes_of(const cases::CellNodes& cell, const CellSpring& spring) {
   return std::minmax({cell[index(spring.vertices[0])], cell[index(spring.vertices[1])]});
 }
 
@@ -27,7 +27,7 @@ int n_cells_inside(const CellSpring& spring) {
 }
 
 /// How many cells have a spring between two nodes, those of the body's mirror images among them.
-std::map<std::pair<int, int>, int> count_cells(const cases::HexMesh& mesh, const BodyTerms& terms) {
+std::map<std::pair<int, int>, int> count_cells(const cases::Mesh& mesh, const BodyTerms& terms) {
   std::map<std::pair<int, int>, int> n_cells;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (const CellSpring& spring : terms_of_cell(terms, c).springs)
@@ -41,7 +41,7 @@ std::map<std::pair<int, int>, int> count_cells(const cases::HexMesh& mesh, const
 }
 
 /// Calls action for the cells of a body of terms, as for_each_cell() does.
-void for_each_cell_of(const cases::HexMesh& mesh, const BodyTerms& terms, const cases::Range& cells,
+void for_each_cell_of(const cases::Mesh& mesh, const BodyTerms& terms, const cases::Range& cells,
                       const std::function<void(std::size_t, const CellTerms&)>& action) {
   assert(terms.kind_of_cell.empty() || terms.kind_of_cell.size() == mesh.cells.size());
   const bool is_whole = terms.boundary == Boundary::whole;
@@ -59,8 +59,8 @@ void for_each_cell_of(const cases::HexMesh& mesh, const BodyTerms& terms, const 
 }
 
 /// The same for cells of four stiffnesses.
-void for_each_cell_of([[maybe_unused]] const cases::HexMesh& mesh,
-                      const std::vector<CellStiffness>& stiffness, const cases::Range& cells,
+void for_each_cell_of([[maybe_unused]] const cases::Mesh& mesh, const std::vector<CellStiffness>& stiffness,
+                      const cases::Range& cells,
                       const std::function<void(std::size_t, const CellTerms&)>& action) {
   if (stiffness.empty()) return;
   assert(stiffness.size() == 1 || stiffness.size() == mesh.cells.size());
@@ -71,7 +71,7 @@ void for_each_cell_of([[maybe_unused]] const cases::HexMesh& mesh,
   }
 }
 
-void for_each_cell_of(const cases::HexMesh& /*mesh*/, const Network& /*springs*/, const cases::Range&,
+void for_each_cell_of(const cases::Mesh& /*mesh*/, const Network& /*springs*/, const cases::Range&,
                       const std::function<void(std::size_t, const CellTerms&)>&) {}
 
 using Factor = std::function<double(std::size_t cell)>;
@@ -120,7 +120,7 @@ std::vector<Link> merge(std::vector<Link> links) {
 }
 
 /// Adds the terms of a cell whose vertices are nodes of a lattice; terms of stiffness 0 are left out.
-void add_cell(Lattice& lattice, const CellTerms& terms, const std::array<int, 8>& nodes, double rest_volume) {
+void add_cell(Lattice& lattice, const CellTerms& terms, const cases::CellNodes& nodes, double rest_volume) {
   for (const CellSpring& spring : terms.springs) {
     if (spring.stiffness == 0) continue;
     const auto [i, j] = nodes_of(nodes, spring);
@@ -128,16 +128,21 @@ void add_cell(Lattice& lattice, const CellTerms& terms, const std::array<int, 8>
     lattice.links.push_back({i, j, {spring.stiffness, length, spring.law}});
   }
   for (const auto& [axis, stiffness, law] : terms.midlines) {
-    Midline midline{nodes, axis, {stiffness, 0, law}};
-    midline.spring.rest_length = midline.between_centres(at_nodes(nodes, lattice.rest)).norm();
+    Midline midline{cases::hexahedron_nodes(nodes), axis, {stiffness, 0, law}};
+    midline.spring.rest_length = midline.between_centres(at_nodes(midline.nodes, lattice.rest)).norm();
     if (stiffness != 0) lattice.midlines.push_back(midline);
   }
   for (const auto& [vertices, lambda, mu] : terms.tetrahedra) {
     const std::array<int, 4> own = cases::pick(nodes, vertices);
     lattice.tetrahedra.push_back(make_tetrahedron(own, at_nodes(own, lattice.rest), lambda, mu));
   }
-  if (terms.volume != 0)
-    lattice.volume_cells.push_back({nodes, terms.volume, rest_volume, terms.is_logarithmic});
+  if (terms.volume == 0) return;
+  if (nodes.size() == 4)
+    lattice.volume_tetrahedra.push_back(
+        {{nodes[0], nodes[1], nodes[2], nodes[3]}, terms.volume, rest_volume, terms.is_logarithmic});
+  else
+    lattice.volume_cells.push_back(
+        {cases::hexahedron_nodes(nodes), terms.volume, rest_volume, terms.is_logarithmic});
 }
 
 void add_network(Lattice& lattice, const Network& springs) {
@@ -204,12 +209,12 @@ SpringBody scaled(const SpringBody& springs, std::size_t n_cells, const Factor& 
   return std::visit([&](const auto& kind) { return scaled_body(kind, n_cells, factor); }, springs.kind);
 }
 
-void for_each_cell(const cases::HexMesh& mesh, const SpringBody& springs, const cases::Range& cells,
+void for_each_cell(const cases::Mesh& mesh, const SpringBody& springs, const cases::Range& cells,
                    const std::function<void(std::size_t, const CellTerms&)>& action) {
   std::visit([&](const auto& kind) { for_each_cell_of(mesh, kind, cells, action); }, springs.kind);
 }
 
-Lattice make_lattice(const cases::HexMesh& mesh, const SpringBody& springs) {
+Lattice make_lattice(const cases::Mesh& mesh, const SpringBody& springs) {
   Lattice lattice;
   lattice.rest = mesh.nodes.to_vector();
   if (const Network* network = springs.network()) {
@@ -217,17 +222,19 @@ Lattice make_lattice(const cases::HexMesh& mesh, const SpringBody& springs) {
     return lattice;
   }
   for_each_cell(mesh, springs, {0, mesh.cells.size()}, [&](std::size_t c, const CellTerms& terms) {
-    add_cell(lattice, terms, mesh.cells[c], cases::cell_volume(cases::cell_vertices(mesh, c)));
+    add_cell(lattice, terms, mesh.cells[c], cases::cell_volume(cases::cell_corners(mesh, c)));
   });
   lattice.links = merge(std::move(lattice.links));
   return lattice;
 }
 
-Lattice cell_lattice(const CellTerms& terms, const CellPositions& vertices) {
+Lattice cell_lattice(const CellTerms& terms, const cases::CellCorners& corners) {
   Lattice lattice;
-  lattice.rest.assign(vertices.begin(), vertices.end());
+  lattice.rest.assign(corners.begin(), corners.end());
   lattice.links.reserve(terms.springs.size());
-  add_cell(lattice, terms, {0, 1, 2, 3, 4, 5, 6, 7}, trilinear_volume(vertices));
+  cases::CellNodes nodes{0, 1, 2, 3, 4, 5, 6, 7};
+  nodes.resize(corners.size());
+  add_cell(lattice, terms, nodes, cases::cell_volume(corners));
   return lattice;
 }
 

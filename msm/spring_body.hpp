@@ -103,15 +103,15 @@ void set_exponents(CellTerms& terms, const Exponents& exponents);
 
 /// Calls action(number, terms) for cells in ascending order, each spring with the cell's part of its link. A
 /// network has no cells.
-void for_each_cell(const cases::HexMesh& mesh, const SpringBody& springs, const cases::Range& cells,
+void for_each_cell(const cases::Mesh& mesh, const SpringBody& springs, const cases::Range& cells,
                    const std::function<void(std::size_t, const CellTerms&)>& action);
 
 /// The lattice of a body: a shared edge or diagonal gets the sum of its cells' stiffnesses (thesis section
 /// 4.3.1: an interior edge of a cubical lattice 4 k_e, an interior face diagonal 2 k_f). Springs and volume
 /// terms of stiffness 0 are left out.
-Lattice make_lattice(const cases::HexMesh& mesh, const SpringBody& springs);
+Lattice make_lattice(const cases::Mesh& mesh, const SpringBody& springs);
 
-/// The lattice of one cell, whose points are its vertices; its springs are in their order among the terms.
-Lattice cell_lattice(const CellTerms& terms, const CellPositions& vertices);
+/// The lattice of one cell, whose points are its corners; its springs are in their order among the terms.
+Lattice cell_lattice(const CellTerms& terms, const cases::CellCorners& corners);
 
 } // namespace springproof::msm

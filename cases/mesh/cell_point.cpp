@@ -11,18 +11,18 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double on_boundary = 1e-6; ///< part of the unit cube, and of a cell's largest edge
+constexpr double on_boundary = 1e-6; ///< part of the reference cell, and of a cell's largest edge
 constexpr int most_steps = 30;       ///< Newton's method takes 2 to 6 in cells that are not nearly degenerate
 
 double largest_edge(const Eigen::AlignedBox3d& box) {
   return box.sizes().maxCoeff();
 }
 
-bool holds(const mechanics::HexahedronVertices& vertices, const Vector3d& point) {
-  const Eigen::AlignedBox3d box = bounding_box(vertices);
+bool holds(const CellCorners& corners, const Vector3d& point) {
+  const Eigen::AlignedBox3d box = bounding_box(corners);
   if (box.exteriorDistance(point) > on_boundary * largest_edge(box)) return false;
-  const auto at = place_in_cell(vertices, point);
-  return at && (at->array() >= -on_boundary).all() && (at->array() <= 1 + on_boundary).all();
+  const auto at = place_in_cell(corners, point);
+  return at && distance_outside(shape_of(corners.size()), *at) <= on_boundary;
 }
 
 /// Finds the cells that touch the point's neighbourhood, in ascending order, in a grid whose cells are all
@@ -47,14 +47,43 @@ std::vector<std::size_t> cells_near(const Grid& grid, const Vector3d& point) {
 
 } // namespace
 
-std::array<double, 8> weights_at(const CellPoint& point) {
-  std::array<double, 8> weights = mechanics::shape_values(point.at);
-  const Eigen::Matrix<double, 3, 8> gradients = mechanics::shape_gradients(point.at);
-  for (int v = 0; v < 8; ++v) weights[index(v)] += gradients.col(v).dot(point.beyond);
+ShapeValues weights_at(CellShape shape, const CellPoint& point) {
+  ShapeValues weights = shape_values(shape, point.at);
+  const ShapeGradients gradients = shape_gradients(shape, point.at);
+  for (std::size_t v = 0; v < weights.size(); ++v)
+    weights[v] += gradients.col(static_cast<Eigen::Index>(v)).dot(point.beyond);
   return weights;
 }
 
-CellPoint refine(const CellPoint& point) {
+namespace {
+
+/// The child of a tetrahedron that holds a point, or comes nearest to it.
+CellPoint in_child_of_tetrahedron(const CellPoint& point) {
+  const CellShape shape = CellShape::tetrahedron;
+  const auto corner = [](int v) {
+    Vector3d at = Vector3d::Zero();
+    if (v > 0) at[v - 1] = 1;
+    return at;
+  };
+  CellPoint best{};
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t child = 0; child < 8; ++child) {
+    CellCorners corners;
+    for (const auto& [a, b] : tetrahedron_children[child]) corners.push_back((corner(a) + corner(b)) / 2);
+    const Eigen::Matrix3d to_child = jacobian(corners, Vector3d::Zero()).inverse();
+    const Vector3d at = to_child * (point.at - corners[0]);
+    const double outside = distance_outside(shape, at);
+    if (outside >= least) continue;
+    least = outside;
+    best = {8 * point.cell + child, moved_inside(shape, at), to_child * point.beyond};
+  }
+  return best;
+}
+
+} // namespace
+
+CellPoint refine(CellShape shape, const CellPoint& point) {
+  if (shape == CellShape::tetrahedron) return in_child_of_tetrahedron(point);
   CellPoint fine{8 * point.cell, 2 * point.at, 2 * point.beyond};
   for (int axis = 0; axis < 3; ++axis)
     if (point.at[axis] >= 0.5) { // child i + 2j + 4k is at (i, j, k)
@@ -64,11 +93,11 @@ CellPoint refine(const CellPoint& point) {
   return fine;
 }
 
-std::vector<NodeWeight> on_nodes(const std::vector<WeightedPoint>& points, const HexMesh& mesh) {
+std::vector<NodeWeight> on_nodes(const std::vector<WeightedPoint>& points, const Mesh& mesh) {
   std::map<int, double> weight; // by node
   for (const auto& [point, part] : points) {
-    const std::array<int, 8> nodes = mesh.cells[point.cell];
-    const std::array<double, 8> weights = weights_at(point);
+    const CellNodes nodes = mesh.cells[point.cell];
+    const ShapeValues weights = weights_at(mesh.shape, point);
     for (std::size_t n = 0; n < nodes.size(); ++n) weight[nodes[n]] += part * weights[n];
   }
   std::vector<NodeWeight> weights;
@@ -77,22 +106,23 @@ std::vector<NodeWeight> on_nodes(const std::vector<WeightedPoint>& points, const
   return weights;
 }
 
-std::optional<Vector3d> place_in_cell(const mechanics::HexahedronVertices& vertices, const Vector3d& point) {
-  const double size = largest_edge(bounding_box(vertices));
-  Vector3d at = Vector3d::Constant(0.5);
+std::optional<Vector3d> place_in_cell(const CellCorners& corners, const Vector3d& point) {
+  const double size = largest_edge(bounding_box(corners));
+  Vector3d at = Vector3d::Constant(0.25); // inside of either shape, and in the middle of the tetrahedron
+  if (corners.size() == 8) at.setConstant(0.5);
   for (int step = 0; step < most_steps; ++step) {
-    const Vector3d missing = point - mechanics::image(vertices, at);
+    const Vector3d missing = point - image(corners, at);
     if (missing.norm() <= 1e-3 * on_boundary * size) return at;
-    at += mechanics::jacobian(vertices, at).partialPivLu().solve(missing);
+    at += jacobian(corners, at).partialPivLu().solve(missing);
     if (!(at.array().abs() <= 10).all()) return std::nullopt;
   }
   return std::nullopt;
 }
 
-std::vector<std::size_t> cells_at(const HexMesh& mesh, const Vector3d& point, const Range& among) {
+std::vector<std::size_t> cells_at(const Mesh& mesh, const Vector3d& point, const Range& among) {
   std::vector<std::size_t> cells;
   const auto look_at = [&](std::size_t cell) {
-    if (holds(cell_vertices(mesh, cell), point)) cells.push_back(cell);
+    if (holds(cell_corners(mesh, cell), point)) cells.push_back(cell);
   };
   const auto [begin, end] = among.common({0, mesh.cells.size()});
   if (mesh.nodes.rule && mesh.cells.rule && mesh.grid) { // a look at eight cells out of 10^7 is enough

@@ -27,7 +27,7 @@ constexpr const char* way_out =
 
 /// Finds the nodes of a tree that are in a box, without a look at most others.
 struct NodesInBox {
-  const HexMesh& mesh;
+  const Mesh& mesh;
   Eigen::AlignedBox3d box;
   std::vector<int> found{};
   bool intersectVolume(const Eigen::AlignedBox3d& volume) const { return volume.intersects(box); }
@@ -39,7 +39,7 @@ struct NodesInBox {
 
 class MeshCheck {
  public:
-  MeshCheck(const HexMesh& mesh, const std::vector<CellFace>& faces, const MeshNumbers& numbers)
+  MeshCheck(const Mesh& mesh, const std::vector<CellFace>& faces, const MeshNumbers& numbers)
       : mesh_(mesh), faces_(faces), numbers_(numbers) {}
 
   void check() {
@@ -50,7 +50,8 @@ class MeshCheck {
   }
 
  private:
-  const HexMesh& mesh_;
+  const Mesh& mesh_;
+  const ReferenceCell& shape_ = reference_cell(mesh_.shape);
   const std::vector<CellFace>& faces_;
   const MeshNumbers& numbers_;
   std::vector<int> surface_; ///< nodes of faces of one cell
@@ -59,11 +60,11 @@ class MeshCheck {
   void check_cells() const {
     std::vector<std::size_t> inverted;
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
-      if (!(smallest_corner_jacobian(cell_vertices(mesh_, c)) > 0)) inverted.push_back(numbers_.of_cells[c]);
+      if (!(smallest_corner_jacobian(cell_corners(mesh_, c)) > 0)) inverted.push_back(numbers_.of_cells[c]);
     if (inverted.empty()) return;
     const std::size_t n_shown = std::min<std::size_t>(5, inverted.size());
     refuse_mesh(fmt::format(
-        "{} of {} hexahedra are inverted or degenerate (a corner whose Jacobian is not positive): "
+        "{} of {} cells are inverted or degenerate (a corner whose Jacobian is not positive): "
         "elements {}{}",
         inverted.size(), mesh_.cells.size(), fmt::join(inverted.data(), inverted.data() + n_shown, " "),
         inverted.size() > n_shown ? " ..." : ""));
@@ -82,7 +83,7 @@ class MeshCheck {
     make_set(surface_);
   }
 
-  static bool is_same_way(const std::array<int, 4>& a, std::array<int, 4> b) {
+  static bool is_same_way(const FaceNodes& a, FaceNodes b) {
     std::rotate(b.begin(), std::find(b.begin(), b.end(), a[0]), b.end());
     return a == b;
   }
@@ -91,7 +92,7 @@ class MeshCheck {
     for (std::size_t a = f; a < end; ++a)
       for (std::size_t b = a + 1; b < end; ++b)
         if (sorted(mesh_.cells[faces_[a].cell]) == sorted(mesh_.cells[faces_[b].cell]))
-          refuse_mesh(fmt::format("elements {} and {} are one hexahedron, which must be listed once",
+          refuse_mesh(fmt::format("elements {} and {} are one cell, which must be listed once",
                                   element(faces_[a].cell), element(faces_[b].cell)));
     std::vector<std::size_t> elements;
     for (std::size_t a = f; a < end; ++a) elements.push_back(element(faces_[a].cell));
@@ -119,16 +120,16 @@ class MeshCheck {
   struct Stray {
     int node;
     std::size_t cell;
-    Vector3d at; ///< in the cell's unit cube
+    Vector3d at; ///< in the reference cell
   };
 
   /// Checks that nodes of the surface lie only on cells that they are vertices of.
   void check_surface() const {
     std::vector<double> shortest(mesh_.nodes.size(), std::numeric_limits<double>::infinity()),
         of_cell; ///< edge, of nodes and cells
-    for (const std::array<int, 8> cell : mesh_.cells) {
+    for (const CellNodes& cell : mesh_.cells) {
       of_cell.push_back(std::numeric_limits<double>::infinity());
-      for (const auto& edge : cell_edges) {
+      for (const auto& edge : shape_.edges) {
         const auto [a, b] = pick(cell, edge);
         const double length = (mesh_.nodes[index(a)] - mesh_.nodes[index(b)]).norm();
         for (double* least : {&shortest[index(a)], &shortest[index(b)], &of_cell.back()})
@@ -140,8 +141,8 @@ class MeshCheck {
     const Eigen::KdBVH<double, 3, int> tree(surface_.begin(), surface_.end(), places.begin(), places.end());
     std::vector<Stray> strays;
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
-      const std::array<int, 8> cell = mesh_.cells[c];
-      const auto vertices = cell_vertices(mesh_, c);
+      const CellNodes cell = mesh_.cells[c];
+      const CellCorners vertices = cell_corners(mesh_, c);
       const Eigen::AlignedBox3d box = bounding_box(vertices);
       const Vector3d aside = Vector3d::Constant(touching * of_cell[c]);
       NodesInBox near{mesh_, {box.min() - aside, box.max() + aside}};
@@ -151,8 +152,8 @@ class MeshCheck {
         const Vector3d point = mesh_.nodes[index(node)];
         const auto place = place_in_cell(vertices, point);
         if (!place) continue;
-        const Vector3d nearest = place->cwiseMax(0).cwiseMin(1);
-        if ((mechanics::image(vertices, nearest) - point).norm() <=
+        const Vector3d nearest = moved_inside(mesh_.shape, *place);
+        if ((image(vertices, nearest) - point).norm() <=
             touching * std::min(of_cell[c], shortest[index(node)]))
           strays.push_back({node, c, nearest});
       }
@@ -161,8 +162,12 @@ class MeshCheck {
   }
 
   [[noreturn]] void refuse_strays(const std::vector<Stray>& strays) const {
-    const auto is_at_vertex = [](const Stray& stray) {
-      return ((stray.at.array() - 0.5).abs() >= 0.5 - touching).all();
+    const auto largest_share = [this](const Stray& stray) { // of a vertex
+      const ShapeValues shape = shape_values(mesh_.shape, stray.at);
+      return std::max_element(shape.begin(), shape.end()) - shape.begin();
+    };
+    const auto is_at_vertex = [&](const Stray& stray) {
+      return shape_values(mesh_.shape, stray.at)[index(largest_share(stray))] >= 1 - 3 * touching;
     };
     std::vector<int> nodes;
     const Stray* first = nullptr; // first that hangs; if none does, first that lies where a vertex is
@@ -171,16 +176,15 @@ class MeshCheck {
       if (first == nullptr || (is_at_vertex(*first) && !is_at_vertex(stray))) first = &stray;
     }
     make_set(nodes);
-    const std::array<int, 8> cell = mesh_.cells[first->cell];
+    const CellNodes cell = mesh_.cells[first->cell];
     std::string where;
     if (is_at_vertex(*first)) {
-      const int vertex = (first->at.x() > 0.5) + 2 * (first->at.y() > 0.5) + 4 * (first->at.z() > 0.5);
-      where = fmt::format("in the place of node {}, a vertex", node(cell[index(vertex)]));
+      where = fmt::format("in the place of node {}, a vertex", node(cell[index(largest_share(*first))]));
     } else {
-      where = "inside";
-      for (std::size_t f = cell_faces.size(); f-- > 0;) // ..., y-, x+, x-: the first one stays
-        if (std::abs(first->at[int(f) / 2] - double(f % 2)) <= touching)
-          where = fmt::format("on the face of nodes {}", nodes_of(pick(cell, cell_faces[f])));
+      const int face = face_at(mesh_.shape, first->at, touching);
+      where = face < 0
+                  ? "inside"
+                  : fmt::format("on the face of nodes {}", nodes_of(pick(cell, shape_.faces[index(face)])));
     }
     const Vector3d point = mesh_.nodes[index(first->node)];
     refuse_mesh(fmt::format("node {} at ({:.6g}, {:.6g}, {:.6g}) lies {} of element {}, and is no vertex of "
@@ -192,20 +196,22 @@ class MeshCheck {
 
   std::size_t node(int n) const { return numbers_.of_nodes[index(n)]; }
   std::size_t element(std::size_t cell) const { return numbers_.of_cells[cell]; }
-  std::string nodes_of(const std::array<int, 4>& face) const {
-    return fmt::format("{} {} {} {}", node(face[0]), node(face[1]), node(face[2]), node(face[3]));
+  std::string nodes_of(const FaceNodes& face) const {
+    std::vector<std::size_t> numbers;
+    for (const int n : face) numbers.push_back(node(n));
+    return fmt::format("{}", fmt::join(numbers, " "));
   }
 };
 
 } // namespace
 
-std::vector<CellFace> faces_of_cells(const HexMesh& mesh) {
+std::vector<CellFace> faces_of_cells(const Mesh& mesh) {
   std::vector<CellFace> faces;
   faces.reserve(6 * mesh.cells.size());
   std::size_t number = 0;
-  for (const std::array<int, 8> cell : mesh.cells) {
-    for (const auto& local : cell_faces) {
-      const std::array<int, 4> around = pick(cell, local);
+  for (const CellNodes& cell : mesh.cells) {
+    for (const FaceNodes& local : reference_cell(mesh.shape).faces) {
+      const FaceNodes around = pick(cell, local);
       faces.push_back({sorted(around), number, around});
     }
     ++number;
@@ -216,7 +222,7 @@ std::vector<CellFace> faces_of_cells(const HexMesh& mesh) {
   return faces;
 }
 
-void check_mesh(const HexMesh& mesh, const std::vector<CellFace>& faces, const MeshNumbers& numbers) {
+void check_mesh(const Mesh& mesh, const std::vector<CellFace>& faces, const MeshNumbers& numbers) {
   MeshCheck(mesh, faces, numbers).check();
 }
 

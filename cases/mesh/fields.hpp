@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/names.hpp"
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "cases/mesh/triangle_mesh.hpp"
 
 #include <cereal/archives/portable_binary.hpp>
@@ -97,6 +97,19 @@ void serialize(Archive& archive, Eigen::Vector3d& vector) {
   archive(binary_data(vector.data(), 3 * sizeof(double)));
 }
 
+/// A list without memory of its own, as one with.
+template<class Archive, class Value, std::size_t most>
+void save(Archive& archive, const boost::container::static_vector<Value, most>& list) {
+  archive(std::vector<Value>(list.begin(), list.end()));
+}
+template<class Archive, class Value, std::size_t most>
+void load(Archive& archive, boost::container::static_vector<Value, most>& list) {
+  std::vector<Value> values;
+  archive(values);
+  if (values.size() > most) throw Exception("a list is longer than its kind");
+  list.assign(values.begin(), values.end());
+}
+
 SPRINGPROOF_FIELDS(springproof::cases::Selection, nodes, edges, faces)
 SPRINGPROOF_FIELDS(springproof::cases::Grid, cells, spacing, origin, present)
 SPRINGPROOF_FIELDS(springproof::cases::GridNodes, cells, origin, step, far_corner)
@@ -106,7 +119,7 @@ void serialize(Archive& archive, springproof::cases::RuledList<Rule>& list) {
   archive(list.values, list.rule);
 }
 SPRINGPROOF_FIELDS(springproof::cases::TriangleMesh, vertices, triangles)
-SPRINGPROOF_FIELDS(springproof::cases::HexMesh, nodes, cells, groups, group_of_cell, grid)
+SPRINGPROOF_FIELDS(springproof::cases::Mesh, shape, nodes, cells, groups, group_of_cell, grid)
 
 } // namespace cereal
 

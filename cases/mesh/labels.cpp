@@ -2,7 +2,7 @@
 
 #include "cases/mesh/confined.hpp"
 #include "cases/mesh/fields.hpp"
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 
@@ -234,8 +234,8 @@ void keep_piece(LabelGrid& grid, const Labels& labels) {
     if (pieces.piece_of_cell[c] != kept) grid.class_of_cell[c] = 0;
 }
 
-HexMesh mesh_of(const LabelGrid& labelled, const Labels& labels) {
-  HexMesh mesh = make_grid_mesh(cropped(grid_of(labelled, labels.edge)));
+Mesh mesh_of(const LabelGrid& labelled, const Labels& labels) {
+  Mesh mesh = make_grid_mesh(cropped(grid_of(labelled, labels.edge)));
   std::vector<std::size_t> n_cells(labels.classes.size(), 0);
   mesh.group_of_cell.reserve(mesh.cells.size());
   for (const std::uint8_t c : labelled.class_of_cell) {
@@ -283,7 +283,7 @@ LabelGrid read_label_grid(const Labels& labels) {
   }
 }
 
-HexMesh make_label_mesh(const Labels& labels) {
+Mesh make_label_mesh(const Labels& labels) {
   const LabelGrid grid = read_label_grid(labels);
   try {
     return mesh_of(grid, labels);

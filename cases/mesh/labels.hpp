@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/case.hpp"
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 
 namespace springproof::cases {
@@ -29,7 +29,7 @@ void keep_piece(LabelGrid& grid, const Labels& labels);
 
 /// The mesh of the cells that have a class, whose names are in group_of_cell.
 /// @throws std::runtime_error if a class has no cell
-HexMesh mesh_of(const LabelGrid& grid, const Labels& labels);
+Mesh mesh_of(const LabelGrid& grid, const Labels& labels);
 
 /// A grid in bytes that anybody may have made; bytes_of() makes them.
 /// @throws std::exception if they hold no grid, or one with a class that does not exist
@@ -40,7 +40,7 @@ std::string bytes_of(const LabelGrid& grid);
 /// @throws InputError, at the place of the file in the case file, with the reason
 LabelGrid read_label_grid(const Labels& labels);
 /// Makes the mesh of the grid that read_label_grid() reads.
-HexMesh make_label_mesh(const Labels& labels);
+Mesh make_label_mesh(const Labels& labels);
 
 /// The intensities of the voxels whose centre lies in a body's grid. Where the centre lies neither in one of
 /// the body's cells nor in a neighbour of one, intensities above the level are mirrored below it. So the

@@ -29,7 +29,7 @@ class Builder {
  public:
   explicit Builder(const GmshModel& model) : model_(model) {}
 
-  HexMesh build() {
+  Mesh build() {
     read_cells();
     read_nodes();
     faces_ = faces_of_cells(mesh_);
@@ -64,11 +64,11 @@ class Builder {
     for (std::size_t e = 0; e < elements.tags.size(); ++e) {
       cell_number_[elements.tags[e]] = mesh_.cells.size();
       numbers_.of_cells.push_back(elements.tags[e]);
-      std::array<int, 8>& cell = mesh_.cells.stored().emplace_back();
+      CellNodes& cell = mesh_.cells.stored().emplace_back();
       for (std::size_t v = 0; v < 8; ++v) {
         const std::size_t tag = elements.nodes[8 * e + around_cell[v]];
         if (tag > 2147483647) refuse(fmt::format("has a node of number {}, must be below 2^31", tag));
-        cell[v] = static_cast<int>(tag);
+        cell.push_back(static_cast<int>(tag));
       }
     }
   }
@@ -143,16 +143,14 @@ class Builder {
       if (elements.type == line) {
         group.edges.push_back(sorted(std::array<int, 2>{nodes[0], nodes[1]}));
       } else if (elements.type == quadrangle) {
-        const auto wanted = sorted(std::array<int, 4>{nodes[0], nodes[1], nodes[2], nodes[3]});
+        const FaceNodes wanted = sorted(FaceNodes(nodes.begin(), nodes.end()));
         const auto found =
             std::lower_bound(faces_.begin(), faces_.end(), wanted,
                              [](const CellFace& face, const auto& key) { return face.vertices < key; });
         if (found == faces_.end() || found->vertices != wanted)
           refuse(fmt::format("element {} of group '{}' is no face of a hexahedron", elements.tags[e], name));
-        const std::array<int, 4>& face = found->around;
-        group.faces.push_back(face);
-        for (std::size_t v = 0; v < 4; ++v)
-          group.edges.push_back(sorted(std::array<int, 2>{face[v], face[(v + 1) % 4]}));
+        group.faces.push_back(found->around);
+        for (const auto& side : sides_of(found->around)) group.edges.push_back(sorted(side));
       } else if (elements.type == hexahedron) {
         mesh_.group_of_cell.resize(mesh_.cells.size());
         mesh_.group_of_cell[cell_number_.at(elements.tags[e])] = name;
@@ -165,7 +163,7 @@ class Builder {
   }
 
   const GmshModel& model_;
-  HexMesh mesh_;
+  Mesh mesh_;
   MeshNumbers numbers_;                              ///< gmsh's tags
   std::unordered_map<std::size_t, int> node_number_; ///< by gmsh's tag; nodes of hexahedra only
   std::unordered_map<std::size_t, std::size_t> cell_number_;
@@ -182,29 +180,34 @@ void check_format(std::istream& stream) {
     refuse(fmt::format("has format {}, must be 4 or 4.1 (gmsh -save -format msh41 rewrites it)", version));
 }
 
-HexMesh mesh_by_gmsh(ReadGmsh& read, const MeshFile& file, bool is_geometry) {
+Mesh mesh_by_gmsh(ReadGmsh& read, const MeshFile& file, bool is_geometry) {
   std::ifstream stream(file.file.path);
   if (!stream) refuse(std::string("cannot be read: ") + std::strerror(errno));
   if (!is_geometry) check_format(stream);
   const GmshModel model = read(file.file.path, is_geometry);
-  HexMesh mesh = Builder(model).build();
+  Mesh mesh = Builder(model).build();
   for (Eigen::Vector3d& node : mesh.nodes.stored()) node *= file.scale;
   return mesh;
 }
 
 /// @throws std::runtime_error if an index leads out of the mesh's arrays, or a position is not finite
-void check(const HexMesh& mesh) {
+void check(const Mesh& mesh) {
   const auto exist = [n_nodes = mesh.nodes.size()](const auto& nodes) {
     return std::all_of(nodes.begin(), nodes.end(),
                        [&](int node) { return node >= 0 && index(node) < n_nodes; });
   };
   const auto all_exist = [&](const auto& lists) { return std::all_of(lists.begin(), lists.end(), exist); };
+  const ReferenceCell& shape = reference_cell(mesh.shape);
+  const auto is_cell = [&](const CellNodes& cell) { return cell.size() == shape.n_vertices; };
+  const auto is_face = [&](const FaceNodes& face) { return face.size() == shape.faces[0].size(); };
   bool is_sound = !mesh.cells.empty() && all_exist(mesh.cells) &&
+                  std::all_of(mesh.cells.begin(), mesh.cells.end(), is_cell) &&
                   (mesh.group_of_cell.empty() || mesh.group_of_cell.size() == mesh.cells.size()) &&
                   std::all_of(mesh.nodes.begin(), mesh.nodes.end(),
                               [](const Eigen::Vector3d& node) { return node.allFinite(); });
   for (const auto& [name, group] : mesh.groups)
-    is_sound = is_sound && exist(group.nodes) && all_exist(group.edges) && all_exist(group.faces);
+    is_sound = is_sound && exist(group.nodes) && all_exist(group.edges) && all_exist(group.faces) &&
+               std::all_of(group.faces.begin(), group.faces.end(), is_face);
   if (!is_sound) throw std::runtime_error("is no sound mesh");
 }
 
@@ -215,19 +218,19 @@ std::string name_in_dimension(const std::string& name, int dimension) {
   return name + " (" + kinds[index(dimension)] + ")";
 }
 
-std::string bytes_of_mesh(const HexMesh& mesh) {
-  return to_bytes(mesh.nodes.to_vector(), mesh.cells.to_vector(), mesh.groups, mesh.group_of_cell);
+std::string bytes_of_mesh(const Mesh& mesh) {
+  return to_bytes(mesh.shape, mesh.nodes.to_vector(), mesh.cells.to_vector(), mesh.groups, mesh.group_of_cell);
 }
 
-HexMesh mesh_from(const std::string& bytes) {
-  HexMesh mesh;
-  from_bytes(bytes, mesh.nodes.stored(), mesh.cells.stored(), mesh.groups, mesh.group_of_cell);
+Mesh mesh_from(const std::string& bytes) {
+  Mesh mesh;
+  from_bytes(bytes, mesh.shape, mesh.nodes.stored(), mesh.cells.stored(), mesh.groups, mesh.group_of_cell);
   check(mesh);
   find_grid(mesh);
   return mesh;
 }
 
-HexMesh read_mesh(const MeshFile& mesh) {
+Mesh read_mesh(const MeshFile& mesh) {
   const NamedFile& file = mesh.file;
   std::error_code absent;
   if (!std::filesystem::is_regular_file(file.path, absent))

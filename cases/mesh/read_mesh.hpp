@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/body.hpp"
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 
 namespace springproof::cases {
 
@@ -16,25 +16,25 @@ std::string name_in_dimension(const std::string& name, int dimension);
 /// @throws InputError, at the place of `file` in the case file, if it cannot be read or is of another format;
 /// if it has no hexahedra or other three-dimensional cells; if check_mesh() refuses it; if an element of a
 /// group is not part of a hexahedron
-HexMesh read_mesh(const MeshFile& mesh);
+Mesh read_mesh(const MeshFile& mesh);
 
 /// A mesh for mesh_from(), but for its grid.
-std::string bytes_of_mesh(const HexMesh& mesh);
+std::string bytes_of_mesh(const Mesh& mesh);
 
 /// The mesh in bytes that anybody may have made, with its grid if it is one (find_grid).
 /// @throws std::runtime_error if they hold no mesh: no cells, a node that does not exist, a position that is
 /// not finite
-HexMesh mesh_from(const std::string& bytes);
+Mesh mesh_from(const std::string& bytes);
 
 /// A face of a cell.
 struct CellFace {
-  std::array<int, 4> vertices; ///< ascending
+  FaceNodes vertices; ///< ascending
   std::size_t cell;
-  std::array<int, 4> around; ///< the same vertices, seen from outside of the cell anticlockwise
+  FaceNodes around; ///< the same vertices, seen from outside of the cell anticlockwise
 };
 
-/// The six faces of every cell, so that those of the same vertices follow each other, the lowest cell first.
-std::vector<CellFace> faces_of_cells(const HexMesh& mesh);
+/// The faces of every cell, so that those of the same vertices follow each other, the lowest cell first.
+std::vector<CellFace> faces_of_cells(const Mesh& mesh);
 
 /// Numbers of a mesh's nodes and cells in the file that it was made from, for messages.
 struct MeshNumbers {
@@ -48,6 +48,6 @@ struct MeshNumbers {
 /// degenerate, listed twice, on one side of the face between them, or three at a face; pieces that share no
 /// node; nodes at the surface that lie on a cell (to 1 % of the shortest edge there) of which they are no
 /// vertices: in the place of one, on a face (hanging), or inside
-void check_mesh(const HexMesh& mesh, const std::vector<CellFace>& faces, const MeshNumbers& numbers);
+void check_mesh(const Mesh& mesh, const std::vector<CellFace>& faces, const MeshNumbers& numbers);
 
 } // namespace springproof::cases

@@ -120,7 +120,7 @@ PointCloud read_point_cloud(const std::string& content) {
       run_confined([&] { return bytes_of(vtk().read_points(content)); }, limits_to_read(content.size())));
 }
 
-CellCloud read_cell_cloud(const std::string& content, const HexMesh& mesh) {
+CellCloud read_cell_cloud(const std::string& content, const Mesh& mesh) {
   constexpr std::uint64_t per_node = 100; // bytes of a file with as much work
   return cell_cloud_from(run_confined([&] { return bytes_of(vtk().read_cells(content, mesh)); },
                                       limits_to_read(content.size() + per_node * mesh.nodes.size())),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 
 #include <cstdint>
 
@@ -26,7 +26,7 @@ struct Share {
 };
 
 /// A range that holds the vertices of these cells.
-inline Range vertices_of(const HexMesh& mesh, const Range& cells) {
+inline Range vertices_of(const Mesh& mesh, const Range& cells) {
   if (cells.size() == 0) return {};
   Range nodes{mesh.nodes.size(), 0};
   for (std::size_t c = cells.begin; c < cells.end; ++c)
@@ -42,7 +42,7 @@ inline Range part_of(std::size_t n, int rank, int n_ranks) {
   return {n * index(rank) / index(n_ranks), n * (index(rank) + 1) / index(n_ranks)};
 }
 
-inline Share share_of(const HexMesh& mesh, int rank, int n_ranks) {
+inline Share share_of(const Mesh& mesh, int rank, int n_ranks) {
   Share share{part_of(mesh.nodes.size(), rank, n_ranks), part_of(mesh.cells.size(), rank, n_ranks), {}};
   const Range vertices = vertices_of(mesh, share.cells);
   share.nodes = share.own_nodes;
@@ -117,7 +117,7 @@ std::vector<std::array<double, N>> gather(const Sharing& sharing,
 }
 
 /// This rank's share of a solution: all of it, where nobody shares it.
-inline Share share_here(const HexMesh& mesh, const Sharing* sharing) {
+inline Share share_here(const Mesh& mesh, const Sharing* sharing) {
   const Range nodes{0, mesh.nodes.size()}, cells{0, mesh.cells.size()};
   return sharing ? sharing->here() : Share{nodes, cells, nodes};
 }

@@ -25,18 +25,18 @@ TriangleMesh joined(const Surface& surface) {
   return mesh;
 }
 
-TriangleMesh triangles_of_faces(const HexMesh& mesh, const std::vector<std::array<int, 4>>& faces) {
+TriangleMesh triangles_of_faces(const Mesh& mesh, const std::vector<FaceNodes>& faces) {
   TriangleMesh outer;
   std::map<int, int> numbers; // by node
-  for (const std::array<int, 4>& face : faces) {
-    std::array<int, 4> vertices;
-    for (std::size_t v = 0; v < 4; ++v) {
-      const auto [number, is_new] = numbers.try_emplace(face[v], static_cast<int>(outer.vertices.size()));
-      if (is_new) outer.vertices.push_back(mesh.nodes[index(face[v])]);
-      vertices[v] = number->second;
+  for (const FaceNodes& face : faces) {
+    FaceNodes vertices;
+    for (const int node : face) {
+      const auto [number, is_new] = numbers.try_emplace(node, static_cast<int>(outer.vertices.size()));
+      if (is_new) outer.vertices.push_back(mesh.nodes[index(node)]);
+      vertices.push_back(number->second);
     }
-    outer.triangles.push_back({vertices[0], vertices[1], vertices[2]});
-    outer.triangles.push_back({vertices[0], vertices[2], vertices[3]});
+    for (std::size_t v = 2; v < vertices.size(); ++v)
+      outer.triangles.push_back({vertices[0], vertices[v - 1], vertices[v]});
   }
   return outer;
 }

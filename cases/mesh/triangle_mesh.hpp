@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 
 namespace springproof::cases {
 
@@ -16,8 +16,8 @@ struct TriangleMesh {
 /// Joins vertices with equal coordinates, and drops triangles that have one of these twice.
 TriangleMesh joined(const Surface& surface);
 
-/// Faces as two triangles each.
-TriangleMesh triangles_of_faces(const HexMesh& mesh, const std::vector<std::array<int, 4>>& faces);
+/// Faces as triangles: a quadrangle as two.
+TriangleMesh triangles_of_faces(const Mesh& mesh, const std::vector<FaceNodes>& faces);
 
 /// Barycentre of a triangle at given positions of the vertices, mm.
 Eigen::Vector3d barycentre(const std::array<int, 3>& triangle, const std::vector<Eigen::Vector3d>& positions);

@@ -1,6 +1,6 @@
 #include "cases/mesh/voxels.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 
 #include <algorithm>
@@ -145,11 +145,11 @@ VoxelCounts count_voxels(const Voxels& voxels) {
   return counts;
 }
 
-HexMesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks) {
+Mesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks) {
   return make_voxel_mesh(scaled_surface(voxels, remarks), voxels);
 }
 
-HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels) {
+Mesh make_voxel_mesh(const Surface& surface, const Voxels& voxels) {
   const auto refuse = [&](const std::string& reason) { voxels.file.refuse(reason); };
   if (const std::size_t open = n_open_edges(joined(surface)))
     refuse(fmt::format("is not closed: {} edges of its {} triangles have no neighbour running the other way",

@@ -33,9 +33,9 @@ VoxelCounts count_voxels(const Voxels& voxels);
 /// @throws InputError, at the place of the surface in the case file, if the surface is no STL or not closed,
 /// if no centre is inside, if the cubes fall into pieces, or if the grid would have over 50 million cubes
 /// @param remarks  as in read_triangles()
-HexMesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks = nullptr);
+Mesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks = nullptr);
 /// The same for a surface that has been read and scaled.
-HexMesh make_voxel_mesh(const Surface& surface, const Voxels& voxels);
+Mesh make_voxel_mesh(const Surface& surface, const Voxels& voxels);
 
 /// Says that a body falls into pieces.
 /// @param sizes  numbers of their cells, two or more   @param edge  of a cell, mm

@@ -234,7 +234,7 @@ PointCloud read_points(const std::string& content) {
   return cloud_of(*read_data_set(content));
 }
 
-CellCloud read_cells(const std::string& content, const HexMesh& mesh) {
+CellCloud read_cells(const std::string& content, const Mesh& mesh) {
   const DataSet data = read_data_set(content);
   CellCloud result{cloud_of(*data), {}, {}};
   for (const Vector3d& point : result.cloud.points)

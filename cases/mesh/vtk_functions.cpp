@@ -75,7 +75,7 @@ std::string write(vtkUnstructuredGrid& grid, const GridFields& fields) {
   return writer->GetOutputString();
 }
 
-std::string write_unstructured_grid(const HexMesh& mesh, const GridFields& fields) {
+std::string write_unstructured_grid(const Mesh& mesh, const GridFields& fields) {
   return write(*grid_of(mesh), fields);
 }
 

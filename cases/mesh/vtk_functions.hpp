@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/solution.hpp"
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "cases/mesh/triangle_mesh.hpp"
 
 /// VTK's readers and writers for callers that include none of VTK's headers.
@@ -98,7 +98,7 @@ struct GridFields {
 /// The functions of the shared object springproof_vtk. They throw std::runtime_error with VTK's message.
 struct VtkFunctions {
   /// Content of a .vtu: doubles, appended raw.
-  std::string (*write_unstructured_grid)(const HexMesh&, const GridFields&);
+  std::string (*write_unstructured_grid)(const Mesh&, const GridFields&);
   /// The same with lines between points as cells.
   std::string (*write_lines)(const std::vector<Eigen::Vector3d>& points,
                              const std::vector<std::array<int, 2>>& lines, const GridFields&);
@@ -106,7 +106,7 @@ struct VtkFunctions {
   PointCloud (*read_points)(const std::string& content);
   /// The same with its cells as interpolation to a mesh and back. A node of the mesh may lie outside of all
   /// cells by half the diagonal of the closest.
-  CellCloud (*read_cells)(const std::string& content, const HexMesh& mesh);
+  CellCloud (*read_cells)(const std::string& content, const Mesh& mesh);
   /// Reads a file .stl, text or binary, whose coordinates VTK takes in single precision.
   Surface (*read_triangles)(const std::string& path);
   /// The index of the point closest to each position.  @param points  at least one
@@ -120,7 +120,7 @@ struct VtkFunctions {
   /// cases::contour() for as many values as points.
   Surface (*contour)(const Picture&, const ContourSettings&);
   /// The place nearest to each position.  @param mesh  with at least one cell
-  std::vector<PlaceInCell> (*nearest_in_cells)(const HexMesh& mesh,
+  std::vector<PlaceInCell> (*nearest_in_cells)(const Mesh& mesh,
                                                const std::vector<Eigen::Vector3d>& positions);
   /// cases::decimated()
   Surface (*decimated)(const TriangleMesh&, std::size_t n_triangles);
@@ -154,7 +154,7 @@ PointCloud read_point_cloud(const std::string& content);
 
 /// The same with interpolation between its points and the nodes of a mesh.
 /// @throws std::runtime_error likewise; if it has no cells of a volume, or none near a node of the mesh
-CellCloud read_cell_cloud(const std::string& content, const HexMesh& mesh);
+CellCloud read_cell_cloud(const std::string& content, const Mesh& mesh);
 
 /// The triangles of a file .stl (text or binary, single precision) or .vtp (polygons are divided). It need
 /// not be closed.

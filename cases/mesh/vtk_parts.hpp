@@ -39,11 +39,11 @@ DataSet read_xml(const std::string& content) {
 }
 
 PointCloud read_points(const std::string& content);
-CellCloud read_cells(const std::string& content, const HexMesh& mesh);
+CellCloud read_cells(const std::string& content, const Mesh& mesh);
 Surface read_polygons(const std::string& content);
 Surface contour_of(const Picture& picture, const ContourSettings& settings);
 Surface decimated_surface(const TriangleMesh& surface, std::size_t n_triangles);
-std::vector<PlaceInCell> nearest_in_cells(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& positions);
+std::vector<PlaceInCell> nearest_in_cells(const Mesh& mesh, const std::vector<Eigen::Vector3d>& positions);
 Volume read_volume(const std::string& path, const VolumeBytes& bytes);
 
 /// An array of numbers, vectors or symmetric tensors, its components named as ParaView shows them.
@@ -73,13 +73,15 @@ inline vtkNew<vtkUnstructuredGrid> grid_of(const std::vector<Eigen::Vector3d>& n
 }
 
 /// A mesh without data.
-inline vtkNew<vtkUnstructuredGrid> grid_of(const HexMesh& mesh) {
+inline vtkNew<vtkUnstructuredGrid> grid_of(const Mesh& mesh) {
   vtkNew<vtkUnstructuredGrid> grid = grid_of(mesh.nodes.to_vector());
   grid->AllocateEstimate(static_cast<vtkIdType>(mesh.cells.size()), 8);
-  for (const std::array<int, 8>& cell : mesh.cells) {
-    std::array<vtkIdType, 8> nodes;
-    for (std::size_t v = 0; v < 8; ++v) nodes[v] = cell[around_cell[v]];
-    grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes.data());
+  const bool are_tetrahedra = mesh.shape == CellShape::tetrahedron;
+  for (const CellNodes& cell : mesh.cells) {
+    Few<vtkIdType, 8> nodes;
+    for (std::size_t v = 0; v < cell.size(); ++v) nodes.push_back(cell[are_tetrahedra ? v : around_cell[v]]);
+    grid->InsertNextCell(are_tetrahedra ? VTK_TETRA : VTK_HEXAHEDRON, static_cast<vtkIdType>(nodes.size()),
+                         nodes.data());
   }
   return grid;
 }

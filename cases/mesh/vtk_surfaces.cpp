@@ -155,7 +155,7 @@ Surface decimated_surface(const TriangleMesh& surface, std::size_t n_triangles) 
   return triangles_of(*with_fewer_triangles(*data, n_triangles));
 }
 
-std::vector<PlaceInCell> nearest_in_cells(const HexMesh& mesh, const std::vector<Vector3d>& positions) {
+std::vector<PlaceInCell> nearest_in_cells(const Mesh& mesh, const std::vector<Vector3d>& positions) {
   const vtkNew<vtkUnstructuredGrid> grid = grid_of(mesh);
   const vtkNew<vtkStaticCellLocator> locator;
   locator->SetDataSet(grid);

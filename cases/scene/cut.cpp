@@ -1,6 +1,6 @@
 #include "cases/scene/scene.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "cases/scene/regions.hpp"
 
 #include <algorithm>
@@ -110,7 +110,7 @@ CutSide side_of(const Scene& scene, const Removed& removed, const Block& block, 
 
 } // namespace
 
-HexMesh cut(HexMesh mesh, const std::vector<Removed>& removed) {
+Mesh cut(Mesh mesh, const std::vector<Removed>& removed) {
   if (removed.empty()) return mesh;
   if (!mesh.grid || !mesh.groups.empty())
     throw InputError(
@@ -141,7 +141,7 @@ HexMesh cut(HexMesh mesh, const std::vector<Removed>& removed) {
     if (grid.present[number]) group_of_cell.push_back(mesh.group_of_cell[cell]);
     if (before[number]) ++cell;
   }
-  HexMesh left = make_grid_mesh(grid);
+  Mesh left = make_grid_mesh(grid);
   left.group_of_cell = std::move(group_of_cell);
   return left;
 }

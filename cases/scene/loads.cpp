@@ -18,15 +18,24 @@ std::array<double, 4> bilinear_shapes(double s, double t) {
   return {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
 }
 
-/// Calls action(face, point, shape values, area weight) at the 2x2 Gauss points of the bilinear faces of a
-/// selection; exact for what is at most cubic in each direction: shape functions times a linear traction on a
-/// planar face.
+/// Calls action(face, point, shape values, area weight) at the points of a quadrature of a selection's faces:
+/// the 2x2 Gauss points of a bilinear one, three of a triangle. Exact for shape functions times a linear
+/// traction on a planar face.
 template<class Action>
-void integrate(const HexMesh& mesh, const Selection& selection, const Action& action) {
-  for (const auto& face : selection.faces) {
-    std::array<Vector3d, 4> vertices;
-    for (std::size_t v = 0; v < 4; ++v) vertices[v] = mesh.nodes[index(face[v])];
-    for (const auto& [s, t, point, area] : gauss_points(vertices, 2))
+void integrate(const Mesh& mesh, const Selection& selection, const Action& action) {
+  for (const FaceNodes& face : selection.faces) {
+    Few<Vector3d, 4> x;
+    for (const int node : face) x.push_back(mesh.nodes[index(node)]);
+    if (face.size() == 3) {
+      const double area = (x[1] - x[0]).cross(x[2] - x[0]).norm() / 2;
+      for (std::size_t q = 0; q < 3; ++q) {
+        std::array<double, 3> shape{1. / 6, 1. / 6, 1. / 6};
+        shape[q] = 2. / 3;
+        action(face, Vector3d(shape[0] * x[0] + shape[1] * x[1] + shape[2] * x[2]), shape, area / 3);
+      }
+      continue;
+    }
+    for (const auto& [s, t, point, area] : gauss_points({x[0], x[1], x[2], x[3]}, 2))
       action(face, point, bilinear_shapes(s, t), area);
   }
 }
@@ -60,10 +69,10 @@ Vector3d on_node(const loads::TotalForce& load, double here, double all) {
 }
 
 using TractionAt = std::function<Vector3d(const Vector3d&)>;
-TractionAt traction_of(const loads::Traction& load, const HexMesh&, const Selection&) {
+TractionAt traction_of(const loads::Traction& load, const Mesh&, const Selection&) {
   return [value = load.value](const Vector3d&) { return value; };
 }
-TractionAt traction_of(const loads::Torque& load, const HexMesh& mesh, const Selection& selection) {
+TractionAt traction_of(const loads::Torque& load, const Mesh& mesh, const Selection& selection) {
   return [load, per_radius = load.value / polar_moment(mesh, selection, load)](
              const Vector3d& point) -> Vector3d { return per_radius * load.axis.cross(point - load.centre); };
 }
@@ -114,13 +123,14 @@ Vector3d acceleration(const loads::Gravity& gravity) {
 /// @param of_volume  returns a cell's value per mm³
 template<class OfVolume>
 std::vector<double> shared_out(const Scene& scene, PointMass shared, const OfVolume& of_volume) {
-  const HexMesh& mesh = scene.mesh;
+  const Mesh& mesh = scene.mesh;
   std::vector<double> shares(mesh.nodes.size(), 0.0);
   double total = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const double value = of_volume(dynamics_of(scene, c)) * cell_volume(cell_vertices(mesh, c));
+    const double value = of_volume(dynamics_of(scene, c)) * cell_volume(cell_corners(mesh, c));
     total += value;
-    for (const int node : mesh.cells[c]) shares[index(node)] += value / 8;
+    const CellNodes nodes = mesh.cells[c];
+    for (const int node : nodes) shares[index(node)] += value / static_cast<double>(nodes.size());
   }
   if (shared != PointMass::uniform) return shares;
   const auto modelled = modelled_share(scene);
@@ -163,7 +173,7 @@ std::function<double(int node)> modelled_share(const Scene& scene) {
   };
 }
 
-void give_to_nodes(Scene::AppliedLoad& patch, const HexMesh& mesh,
+void give_to_nodes(Scene::AppliedLoad& patch, const Mesh& mesh,
                    const std::function<double(int node)>& share) {
   patch.selection = {};
   patch.part.clear();
@@ -179,13 +189,13 @@ std::vector<NodeVector> nodes_with_point_forces(const Scene& scene) {
   return all.forces;
 }
 
-std::function<Vector3d(const Vector3d&)> surface_traction(const HexMesh& mesh,
+std::function<Vector3d(const Vector3d&)> surface_traction(const Mesh& mesh,
                                                           const Scene::AppliedLoad& applied) {
   const auto traction = [&](const auto& kind) { return traction_of(kind, mesh, applied.selection); };
   return loads::of_those_on<loads::On::area, TractionAt>(applied.load.kind, traction);
 }
 
-double area(const HexMesh& mesh, const Selection& selection) {
+double area(const Mesh& mesh, const Selection& selection) {
   double sum = 0;
   integrate(mesh, selection,
             [&](const auto&, const Vector3d&, const auto&, double weight) { sum += weight; });
@@ -212,7 +222,7 @@ std::vector<std::string> warnings_of_loads(const Scene& scene) {
   return warnings;
 }
 
-double polar_moment(const HexMesh& mesh, const Selection& selection, const loads::Torque& torque) {
+double polar_moment(const Mesh& mesh, const Selection& selection, const loads::Torque& torque) {
   double moment = 0;
   integrate(mesh, selection, [&](const auto&, const Vector3d& point, const auto&, double weight) {
     moment += weight * torque.axis.cross(point - torque.centre).squaredNorm();
@@ -233,7 +243,7 @@ std::vector<NodeVector> loaded_nodes(const Scene& scene, const std::vector<Scene
     integrate(scene.mesh, applied.selection,
               [&](const auto& face, const Vector3d& point, const auto& shape, double weight) {
                 const Vector3d force = weight * traction(point);
-                for (std::size_t v = 0; v < 4; ++v) all.add(face[v], shape[v] * force);
+                for (std::size_t v = 0; v < face.size(); ++v) all.add(face[v], shape[v] * force);
               });
   }
   return all.forces;

@@ -16,7 +16,7 @@ std::function<double(int node)> modelled_share(const Scene& scene);
 /// Makes nodes and parts of a patch's load from its points: a nodal force shared by their weights, all of it
 /// on the modelled part of a symmetric scene.
 /// @param mesh  the points' mesh     @param share  modelled_share() of the scene
-void give_to_nodes(Scene::AppliedLoad& patch, const HexMesh& mesh,
+void give_to_nodes(Scene::AppliedLoad& patch, const Mesh& mesh,
                    const std::function<double(int node)>& share);
 
 /// A force (N) or a displacement (mm) of one node.
@@ -34,7 +34,7 @@ std::vector<NodeVector> loaded_nodes(const Scene& scene);
 std::vector<NodeVector> loaded_nodes(const Scene& scene, const std::vector<Scene::AppliedLoad>& loads);
 
 /// Area of a selection's faces at rest, mm²; 0 for nodes and edges. Exact for planar faces.
-double area(const HexMesh& mesh, const Selection& selection);
+double area(const Mesh& mesh, const Selection& selection);
 
 /// One sentence for each traction on a patch whose faces' area differs by more than a tenth from that which
 /// the sphere cuts from the case's [surface], or from a flat circle's: faces of voxels are stairs.
@@ -52,7 +52,7 @@ std::vector<Eigen::Vector3d> nodal_forces(const Scene& scene);
 /// The dead surface traction (MPa) of a load on an area, as a function of a point (mm) of its region at rest;
 /// empty for other loads.
 std::function<Eigen::Vector3d(const Eigen::Vector3d& point)>
-surface_traction(const HexMesh& mesh, const Scene::AppliedLoad& applied);
+surface_traction(const Mesh& mesh, const Scene::AppliedLoad& applied);
 
 /// A Gauss point of a bilinear face.
 struct FacePoint {
@@ -66,7 +66,7 @@ std::vector<FacePoint> gauss_points(const std::array<Eigen::Vector3d, 4>& vertic
 
 /// Integral of r² over the rest faces of a torque's region (mm⁴), r the distance from its axis, exact for
 /// bilinear planar faces.
-double polar_moment(const HexMesh& mesh, const Selection& selection, const loads::Torque& torque);
+double polar_moment(const Mesh& mesh, const Selection& selection, const loads::Torque& torque);
 
 /// Damping and density of a cell's material, t/mm³; without a density in the case nothing has mass.
 struct CellDynamics {

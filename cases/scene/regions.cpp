@@ -16,7 +16,7 @@ namespace {
 
 constexpr double near_tolerance = 1e-6; ///< mm: `near` names a node and does not search for one
 
-std::size_t nearest_node(const HexMesh& mesh, const Vector3d& point) {
+std::size_t nearest_node(const Mesh& mesh, const Vector3d& point) {
   if (const auto& grid = mesh.nodes.rule) { // without a look at the others
     std::size_t node = 0;
     for (int a = 2; a >= 0; --a) {
@@ -35,25 +35,26 @@ std::size_t nearest_node(const HexMesh& mesh, const Vector3d& point) {
 }
 
 /// Adds a cell's edges and faces between selected vertices.
-void add_sides(const std::array<int, 8>& cell, const std::array<bool, 8>& is_selected, Selection& selection) {
+void add_sides(const CellNodes& cell, const Few<bool, 8>& is_selected, Selection& selection) {
+  const ReferenceCell& shape = reference_cell(shape_of(cell.size()));
   const auto are_selected = [&](const auto& vertices) {
     return std::all_of(vertices.begin(), vertices.end(), [&](int v) { return is_selected[index(v)]; });
   };
-  for (const auto& edge : cell_edges)
+  for (const auto& edge : shape.edges)
     if (are_selected(edge)) selection.edges.push_back(sorted(pick(cell, edge)));
-  for (const auto& face : cell_faces)
+  for (const auto& face : shape.faces)
     if (are_selected(face)) selection.faces.push_back(pick(cell, face));
 }
 
 /// A face between two cells has come from both: the first stays.
-void keep_each_once(std::vector<std::array<int, 4>>& faces) {
-  std::set<std::array<int, 4>> seen;
-  const auto is_known = [&](const std::array<int, 4>& face) { return !seen.insert(sorted(face)).second; };
+void keep_each_once(std::vector<FaceNodes>& faces) {
+  std::set<FaceNodes> seen;
+  const auto is_known = [&](const FaceNodes& face) { return !seen.insert(sorted(face)).second; };
   faces.erase(std::remove_if(faces.begin(), faces.end(), is_known), faces.end());
 }
 
 /// Does the same as select_on_planes() on a grid whose cells are all present, without a look at inner ones.
-Selection select_on_planes_of(const GridNodes& grid, const HexMesh& mesh,
+Selection select_on_planes_of(const GridNodes& grid, const Mesh& mesh,
                               const std::vector<std::string>& faces) {
   std::array<int, 3> first{0, 0, 0}, last = grid.cells; // places of selected nodes along each axis
   for (const std::string& face : faces) {
@@ -81,12 +82,12 @@ Selection select_on_planes_of(const GridNodes& grid, const HexMesh& mesh,
     last_cell[a] = std::min(last[a], grid.cells[a] - 1);
   }
   in_planes(first_cell, last_cell, [&](int i, int j, int k) {
-    std::array<bool, 8> is_selected;
+    Few<bool, 8> is_selected;
     for (int v = 0; v < 8; ++v) {
       const std::array<int, 3> at{i + (v & 1), j + ((v >> 1) & 1), k + (v >> 2)};
-      is_selected[index(v)] = true;
-      for (std::size_t a = 0; a < 3; ++a)
-        is_selected[index(v)] = is_selected[index(v)] && at[a] >= first[a] && at[a] <= last[a];
+      bool is_inside = true;
+      for (std::size_t a = 0; a < 3; ++a) is_inside = is_inside && at[a] >= first[a] && at[a] <= last[a];
+      is_selected.push_back(is_inside);
     }
     add_sides(mesh.cells[number(i, j, k, grid.cells[0], grid.cells[1])], is_selected, selection);
   });
@@ -95,7 +96,7 @@ Selection select_on_planes_of(const GridNodes& grid, const HexMesh& mesh,
 }
 
 /// The node at the region's point.  @throws InputError if there is none within 1e-6 mm
-Selection select_near(const HexMesh& mesh, const Region& region) {
+Selection select_near(const Mesh& mesh, const Region& region) {
   const Vector3d& point = *region.near;
   const std::size_t nearest = nearest_node(mesh, point);
   const Vector3d found = mesh.nodes[nearest];
@@ -107,7 +108,7 @@ Selection select_near(const HexMesh& mesh, const Region& region) {
 }
 
 /// The nodes of the region's part, and the edges and faces between them of that part's cells.
-Selection select_part(const HexMesh& mesh, const Region& region) {
+Selection select_part(const Mesh& mesh, const Region& region) {
   const Part& part = *region.part;
   const auto is_of_class = [&](std::size_t cell) {
     return part.cell_class.empty() ||
@@ -130,7 +131,7 @@ Selection select_part(const HexMesh& mesh, const Region& region) {
 }
 
 /// @throws InputError if physical groups of several dimensions have the region's name
-void check_is_one_group(const HexMesh& mesh, const Region& region) {
+void check_is_one_group(const Mesh& mesh, const Region& region) {
   std::vector<std::string> meant;
   for (int dimension = 0; dimension < 3; ++dimension)
     if (const std::string name = name_in_dimension(region.name, dimension); mesh.groups.count(name) > 0)
@@ -147,7 +148,7 @@ void check_is_one_group(const HexMesh& mesh, const Region& region) {
 
 } // namespace
 
-Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& faces) {
+Selection select_on_planes(const Mesh& mesh, const std::vector<std::string>& faces) {
   if (mesh.nodes.rule && mesh.cells.rule) return select_on_planes_of(*mesh.nodes.rule, mesh, faces);
   const Eigen::AlignedBox3d body = bounding_box(mesh.nodes);
   const double rounding = 1e-9 * body.sizes().norm(); // far above that of i * spacing, far below a cell
@@ -160,7 +161,7 @@ Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& 
   return select_between(mesh, is_selected);
 }
 
-std::vector<int> planes_of_nodes(const HexMesh& mesh, const std::vector<Fixed>& symmetry) {
+std::vector<int> planes_of_nodes(const Mesh& mesh, const std::vector<Fixed>& symmetry) {
   std::vector<int> planes(symmetry.empty() ? 0 : mesh.nodes.size(), 0);
   for (std::size_t plane = 0; plane < symmetry.size(); ++plane)
     for (const int node : select_on_planes(mesh, {symmetry[plane].region.name}).nodes)
@@ -168,10 +169,10 @@ std::vector<int> planes_of_nodes(const HexMesh& mesh, const std::vector<Fixed>& 
   return planes;
 }
 
-std::vector<std::array<int, 4>> surface_faces(const HexMesh& mesh, const std::vector<Fixed>& symmetry) {
-  std::vector<std::array<int, 4>> faces = boundary_faces(mesh);
+std::vector<FaceNodes> surface_faces(const Mesh& mesh, const std::vector<Fixed>& symmetry) {
+  std::vector<FaceNodes> faces = boundary_faces(mesh);
   const std::vector<int> planes = planes_of_nodes(mesh, symmetry);
-  const auto is_mirrored = [&](const std::array<int, 4>& face) {
+  const auto is_mirrored = [&](const FaceNodes& face) {
     int common = ~0;
     for (const int node : face) common &= planes[index(node)];
     return common != 0;
@@ -180,16 +181,13 @@ std::vector<std::array<int, 4>> surface_faces(const HexMesh& mesh, const std::ve
   return faces;
 }
 
-Selection select_patch(const HexMesh& mesh, const std::vector<std::array<int, 4>>& surface,
-                       const Region& region) {
+Selection select_patch(const Mesh& mesh, const std::vector<FaceNodes>& surface, const Region& region) {
   Selection patch;
   for (const auto& face : surface) {
     if (!((centre_of(mesh, face) - *region.near).norm() <= *region.radius)) continue;
     patch.faces.push_back(face);
-    for (std::size_t v = 0; v < 4; ++v) {
-      patch.nodes.push_back(face[v]);
-      patch.edges.push_back(sorted(std::array<int, 2>{face[v], face[(v + 1) % 4]}));
-    }
+    patch.nodes.insert(patch.nodes.end(), face.begin(), face.end());
+    for (const auto& side : sides_of(face)) patch.edges.push_back(sorted(side));
   }
   if (patch.faces.empty()) refuse(region.where, "'{}' has no face of the body's surface", region.name);
   make_set(patch.nodes);
@@ -197,15 +195,15 @@ Selection select_patch(const HexMesh& mesh, const std::vector<std::array<int, 4>
   return patch;
 }
 
-Selection select_between(const HexMesh& mesh, const std::vector<bool>& is_selected,
+Selection select_between(const Mesh& mesh, const std::vector<bool>& is_selected,
                          const std::function<bool(std::size_t)>& is_of_cells) {
   Selection selection;
   for (std::size_t n = 0; n < is_selected.size(); ++n)
     if (is_selected[n]) selection.nodes.push_back(static_cast<int>(n));
   for (std::size_t c = 0; c < mesh.cells.size() && !selection.nodes.empty(); ++c) {
     if (is_of_cells && !is_of_cells(c)) continue;
-    std::array<bool, 8> vertices;
-    for (std::size_t v = 0; v < 8; ++v) vertices[v] = is_selected[index(mesh.cells[c][v])];
+    Few<bool, 8> vertices;
+    for (const int node : mesh.cells[c]) vertices.push_back(is_selected[index(node)]);
     add_sides(mesh.cells[c], vertices, selection);
   }
   make_set(selection.edges);
@@ -213,7 +211,7 @@ Selection select_between(const HexMesh& mesh, const std::vector<bool>& is_select
   return selection;
 }
 
-Selection select(const HexMesh& mesh, const Region& region) {
+Selection select(const Mesh& mesh, const Region& region) {
   if (region.near && !region.radius) return select_near(mesh, region);
   Selection selection;
   if (region.part) {
@@ -233,7 +231,7 @@ Selection select(const HexMesh& mesh, const Region& region) {
   return selection;
 }
 
-int select_node(const HexMesh& mesh, const Region& region) {
+int select_node(const Mesh& mesh, const Region& region) {
   const Selection selection = select(mesh, region);
   if (selection.nodes.size() != 1)
     refuse(region.where, "'{}' selects {} nodes, and exactly one is wanted", region.name,

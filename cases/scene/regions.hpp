@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/boundary.hpp"
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 
 #include <functional>
 
@@ -11,21 +11,21 @@ namespace springproof::cases {
 /// Nodes, edges and faces on all of these planes of the mesh's bounding box. On a grid whose cells are all
 /// present they follow from numbers, without a look at the inner ones.
 /// @param faces  names of the box's faces, such as "z+" and "x-"
-Selection select_on_planes(const HexMesh& mesh, const std::vector<std::string>& faces);
+Selection select_on_planes(const Mesh& mesh, const std::vector<std::string>& faces);
 
 /// Bits of the planes of symmetry that each node is on, by their place in the list; empty without planes.
-std::vector<int> planes_of_nodes(const HexMesh& mesh, const std::vector<Fixed>& symmetry);
+std::vector<int> planes_of_nodes(const Mesh& mesh, const std::vector<Fixed>& symmetry);
 
 /// Faces of the body's surface: they have one cell, and lie on no plane of symmetry, where the body goes on.
-std::vector<std::array<int, 4>> surface_faces(const HexMesh& mesh, const std::vector<Fixed>& symmetry);
+std::vector<FaceNodes> surface_faces(const Mesh& mesh, const std::vector<Fixed>& symmetry);
 
 /// The faces of the surface whose centre lies in the region's sphere, with their edges and nodes.
 /// @param surface  surface_faces()
-Selection select_patch(const HexMesh& mesh, const std::vector<std::array<int, 4>>& surface,
+Selection select_patch(const Mesh& mesh, const std::vector<FaceNodes>& surface,
                        const Region& region);
 
 /// Selected nodes, and the edges and faces between them of some cells or of all.
-Selection select_between(const HexMesh& mesh, const std::vector<bool>& is_selected,
+Selection select_between(const Mesh& mesh, const std::vector<bool>& is_selected,
                          const std::function<bool(std::size_t cell)>& is_of_cells = {});
 
 } // namespace springproof::cases

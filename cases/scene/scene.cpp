@@ -26,7 +26,7 @@ double radians(double degrees) {
 
 /// Patches become groups of the mesh, so that refined meshes keep the same patches.
 void add_patches(Scene& scene) {
-  std::optional<std::vector<std::array<int, 4>>> surface;
+  std::optional<std::vector<FaceNodes>> surface;
   const auto add_patch = [&](const Region& region, bool) {
     if (!region.radius) return;
     if (!surface) surface = surface_faces(scene.mesh, scene.definition.symmetry);
@@ -42,7 +42,7 @@ void add_patches(Scene& scene) {
   for (const Measure& measure : scene.definition.measures) for_each_region(measure, add_patch);
 }
 
-bool has_cell(const HexMesh& mesh, const RegionMaterial& region, std::size_t cell) {
+bool has_cell(const Mesh& mesh, const RegionMaterial& region, std::size_t cell) {
   if (!region.group.empty()) return !mesh.group_of_cell.empty() && mesh.group_of_cell[cell] == region.group;
   const Vector3d centre = centre_of(mesh, mesh.cells[cell]);
   return (centre.array() >= region.lower.array()).all() && (centre.array() <= region.upper.array()).all();
@@ -167,7 +167,7 @@ void resolve_loads(Scene& scene) {
 }
 
 /// Grids of cells are sound by construction, and read_mesh() checks what others may have made.
-HexMesh make_mesh(const Body& body, std::vector<std::string>& remarks) {
+Mesh make_mesh(const Body& body, std::vector<std::string>& remarks) {
   if (const Box* box = std::get_if<Box>(&body)) return make_box_mesh(box->size, box->cells);
   if (const Voxels* voxels = std::get_if<Voxels>(&body)) return make_voxel_mesh(*voxels, &remarks);
   if (const Labels* labels = std::get_if<Labels>(&body)) return make_label_mesh(*labels);
@@ -221,7 +221,7 @@ void check_measure(const Scene& scene, const Measure& measure) {
 }
 
 /// Drops triangles on planes of symmetry: no part of the surface, beyond them the body goes on.
-void open_at_symmetry(const HexMesh& mesh, const std::vector<Fixed>& symmetry, TriangleMesh& surface) {
+void open_at_symmetry(const Mesh& mesh, const std::vector<Fixed>& symmetry, TriangleMesh& surface) {
   for (const Fixed& plane : symmetry) {
     const int axis = plane.region.name[0] - 'x';
     const double at = mesh.nodes[index(select_on_planes(mesh, {plane.region.name}).nodes.front())][axis];
@@ -327,7 +327,7 @@ Scene refine(const Scene& scene, int n) {
   for (const Scene::AppliedLoad& applied : scene.loads) {
     if (!applied.points.empty()) {
       Scene::AppliedLoad& patch = fine.loads.emplace_back(applied);
-      for (WeightedPoint& at : patch.points) at.point = refine(at.point);
+      for (WeightedPoint& at : patch.points) at.point = refine(scene.mesh.shape, at.point);
       give_to_nodes(patch, fine.mesh, share);
       continue;
     }

@@ -38,7 +38,7 @@ struct Scene {
     AddedMass added;
   };
   Case definition;
-  HexMesh mesh;
+  Mesh mesh;
   std::vector<int> material_of_cell;         ///< in materials_of(definition); empty when there is but one
   std::vector<ConstrainedNodes> constrained; ///< [[fixed]], [[symmetry]], [[moved]] and nodes of rigid cells:
                                              ///< all constrained degrees of freedom
@@ -52,10 +52,10 @@ struct Scene {
 
 /// Nodes, edges and faces of a region. Faces of a box are planes of the mesh's bounding box.
 /// @throws InputError if it names nothing on this mesh or selects no node
-Selection select(const HexMesh& mesh, const Region& region);
+Selection select(const Mesh& mesh, const Region& region);
 
 /// The region's only node.  @throws InputError if it selects none or several
-int select_node(const HexMesh& mesh, const Region& region);
+int select_node(const Mesh& mesh, const Region& region);
 
 /// Index in materials_of() of a cell's material.
 int material_of(const Scene& scene, std::size_t cell);
@@ -98,7 +98,7 @@ std::vector<std::string> doubts_of(const std::vector<NetworkSpring>& springs,
 /// A mesh without the pieces that are cut out of it.
 /// @throws InputError, at the piece, if the mesh is no grid of cells or has groups of nodes, if a piece has
 /// no cells or one that another has too, and if the rest is not one body whose cells hang together by faces
-HexMesh cut(HexMesh mesh, const std::vector<Removed>& removed);
+Mesh cut(Mesh mesh, const std::vector<Removed>& removed);
 
 /// The first piece whose sides are joined, if there is one.
 std::optional<Removed> first_joined(const Case& definition);

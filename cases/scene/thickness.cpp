@@ -31,7 +31,7 @@ Neighbours neighbours_in_grid(const Grid& grid) {
   return neighbours;
 }
 
-Neighbours neighbours_of(const HexMesh& mesh) {
+Neighbours neighbours_of(const Mesh& mesh) {
   if (mesh.grid) return neighbours_in_grid(*mesh.grid);
   std::vector<std::tuple<std::array<int, 4>, int, std::size_t>> faces;
   faces.reserve(6 * mesh.cells.size());
@@ -52,7 +52,7 @@ Neighbours neighbours_of(const HexMesh& mesh) {
 
 } // namespace
 
-std::vector<int> cells_across(const HexMesh& mesh, const std::vector<Fixed>& symmetry, int most) {
+std::vector<int> cells_across(const Mesh& mesh, const std::vector<Fixed>& symmetry, int most) {
   const Neighbours neighbours = neighbours_of(mesh);
   const std::vector<int> planes = planes_of_nodes(mesh, symmetry);
   const auto is_mirror = [&](int cell, std::size_t face) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cases/case/boundary.hpp"
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 
 /// How thick a body is, counted in cells.
 namespace springproof::cases {
@@ -10,6 +10,6 @@ namespace springproof::cases {
 /// the three rows along its edges, 1 in a plate of one cell. A plane of symmetry mirrors a row; a closed ring has no
 /// ends, and does not count.
 /// @param most  what is more counts as so many
-std::vector<int> cells_across(const HexMesh& mesh, const std::vector<Fixed>& symmetry, int most);
+std::vector<int> cells_across(const Mesh& mesh, const std::vector<Fixed>& symmetry, int most);
 
 } // namespace springproof::cases

@@ -27,10 +27,10 @@ struct EigenOptions {
 };
 
 /// The body whose modes are compared: the case's, or a cube of cells.
-std::optional<cases::HexMesh> body_of(const EigenOptions& options, const msm::CellVertices& cell) {
+std::optional<cases::Mesh> body_of(const EigenOptions& options, const msm::CellVertices& cell) {
   const std::string& file = options.design.case_file;
   if (!file.empty()) {
-    cases::HexMesh mesh = make_scene_within_memory(cases::read_case(file, options.design.settings)).mesh;
+    cases::Mesh mesh = make_scene_within_memory(cases::read_case(file, options.design.settings)).mesh;
     if (!mesh.grid) throw cases::InputError(file + ": free modes are for bodies of equal cells");
     return mesh;
   }
@@ -96,7 +96,7 @@ int run(const EigenOptions& asked) {
   if (mpi_rank() != 0) return 0;
   const EigenspaceAnalysis analysis =
       analyse_eigenspaces(solvers().full_spectrum(fem), solvers().full_spectrum(msm));
-  const std::optional<cases::HexMesh> body = body_of(options, request.cell);
+  const std::optional<cases::Mesh> body = body_of(options, request.cell);
   std::optional<FreeBodyModes> modes;
   if (body) modes = free_body_modes(assemble(*body, fem), assemble(*body, msm), options.n_modes);
   if (options.json) {

@@ -212,7 +212,7 @@ RefinedMeshes refine_until_known(const cases::Scene& scene, const Answers& own, 
 
 } // namespace
 
-double largest_gradient(const cases::HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
+double largest_gradient(const cases::Mesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
                         const cases::Sharing* sharing) {
   const cases::Share here = cases::share_here(mesh, sharing);
   double largest = 0;

@@ -8,7 +8,7 @@ namespace springproof::compare {
 
 /// The largest displacement gradient of a cell (2-norm of F - I at its centre): strains and rotations alike.
 /// What small strain leaves out is of this size next to what it keeps.
-double largest_gradient(const cases::HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
+double largest_gradient(const cases::Mesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
                         const cases::Sharing* sharing = nullptr);
 
 /// Part of the finite elements' value, in percent, that it may be wrong by before the expectation can no

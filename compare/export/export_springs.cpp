@@ -46,19 +46,19 @@ std::ptrdiff_t n_power_log(const msm::Lattice& lattice) {
 
 /// Finds every link's kind among the springs of the mesh's cells: 1 an edge, 2 a face diagonal, 3 an internal
 /// diagonal; 0 for a link of a network that is none of these.
-std::vector<int> kinds_of_links(const cases::HexMesh& mesh, const std::vector<msm::Link>& links) {
+std::vector<int> kinds_of_links(const cases::Mesh& mesh, const std::vector<msm::Link>& links) {
   struct Pair {
     int i, j, kind;
     bool operator<(const Pair& other) const { return std::tie(i, j) < std::tie(other.i, other.j); }
   };
   std::vector<Pair> pairs;
-  const auto add = [&](const std::array<int, 8>& cell, const auto& of_kind, int kind) {
+  const auto add = [&](const cases::CellNodes& cell, const auto& of_kind, int kind) {
     for (const auto& vertices : of_kind) {
       const auto [i, j] = cases::sorted(cases::pick(cell, vertices));
       pairs.push_back({i, j, kind});
     }
   };
-  for (const std::array<int, 8>& cell : mesh.cells) {
+  for (const cases::CellNodes& cell : mesh.cells) {
     add(cell, cases::cell_edges, 1);
     add(cell, cases::cell_face_diagonals, 2);
     add(cell, cases::cell_internal_diagonals, 3);

@@ -74,7 +74,7 @@ struct DrawnSurface {
 
 /// The surface in fewer triangles; none if it is small or cannot be had in fewer: the page draws all of it.
 std::vector<mechanics::EmbeddedSurface> coarse_surface(const cases::TriangleMesh& fine,
-                                                       const cases::HexMesh& mesh) {
+                                                       const cases::Mesh& mesh) {
   if (fine.triangles.size() <= coarse_triangles) return {};
   try {
     return {mechanics::embed(cases::decimated(fine, coarse_triangles), mesh)};
@@ -85,7 +85,7 @@ std::vector<mechanics::EmbeddedSurface> coarse_surface(const cases::TriangleMesh
 
 /// @param spheres  vertices of the surface, their centres    @param mesh  that the surface is bound to
 DrawnSurface drawn_surface(const mechanics::EmbeddedSurface& surface, const std::vector<int>& spheres,
-                           const cases::HexMesh& mesh) {
+                           const cases::Mesh& mesh) {
   DrawnSurface drawn;
   std::vector<mechanics::EmbeddedSurface> surfaces = coarse_surface(surface.rest, mesh);
   surfaces.insert(surfaces.begin(), surface);

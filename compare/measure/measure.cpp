@@ -164,19 +164,22 @@ double largest_norm(const std::vector<cases::SymmetricTensor>& tensors, const ca
   return solution.sharing ? solution.sharing->largest(largest) : largest;
 }
 
-/// Root of the mean of |u|² over the cells at rest, by 2x2x2 Gauss.  @param field  as of field_norm()
-double root_mean_square(const cases::HexMesh& mesh, const std::vector<Vector3d>& field,
+/// Root of the mean of |u|² over the cells at rest, by quadrature.  @param field  as of field_norm()
+double root_mean_square(const cases::Mesh& mesh, const std::vector<Vector3d>& field,
                         const cases::Sharing* sharing) {
   const cases::Share here = cases::share_here(mesh, sharing);
+  const cases::ReferenceCell& reference = cases::reference_cell(mesh.shape);
   double integral = 0, volume = 0;
   for (std::size_t c = here.cells.begin; c < here.cells.end; ++c) {
-    const auto vertices = cases::cell_vertices(mesh, c);
-    for (int q = 0; q < 8; ++q) {
-      const double weight = mechanics::jacobian(vertices, mechanics::gauss_point(q)).determinant() / 8;
-      const std::array<double, 8> shape = mechanics::shape_values(mechanics::gauss_point(q));
+    const cases::CellCorners corners = cases::cell_corners(mesh, c);
+    const cases::CellNodes nodes = mesh.cells[c];
+    for (const Vector3d& point : reference.points) {
+      const double weight =
+          cases::jacobian(corners, point).determinant() * reference.volume / double(reference.points.size());
+      const cases::ShapeValues shape = cases::shape_values(mesh.shape, point);
       Vector3d value = Vector3d::Zero();
-      for (std::size_t v = 0; v < 8; ++v)
-        value += shape[v] * field[cases::index(mesh.cells[c][v]) - here.nodes.begin];
+      for (std::size_t v = 0; v < nodes.size(); ++v)
+        value += shape[v] * field[cases::index(nodes[v]) - here.nodes.begin];
       integral += weight * value.squaredNorm();
       volume += weight;
     }
@@ -273,7 +276,7 @@ struct Evaluation {
 
 } // namespace
 
-double field_norm(const measures::Kind& kind, const cases::HexMesh& mesh, const std::vector<Vector3d>& field,
+double field_norm(const measures::Kind& kind, const cases::Mesh& mesh, const std::vector<Vector3d>& field,
                   const cases::Sharing* sharing) {
   if (std::holds_alternative<measures::DisplacementFieldL2>(kind))
     return root_mean_square(mesh, field, sharing);
@@ -340,7 +343,7 @@ bool is_trajectory_norm(const cases::Measure& measure) {
   return measure.over_time == cases::OverTime::trajectory_l2;
 }
 
-std::optional<double> field_error_percent(const measures::Kind& kind, const cases::HexMesh& mesh,
+std::optional<double> field_error_percent(const measures::Kind& kind, const cases::Mesh& mesh,
                                           const std::vector<Vector3d>& reference,
                                           const std::vector<Vector3d>& other, double zero,
                                           const cases::Sharing* sharing) {

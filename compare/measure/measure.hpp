@@ -39,12 +39,12 @@ std::variant<double, std::string> finite_value(const cases::Measure& measure, co
 /// The norm of a field on a mesh's nodes that a measure of the displacement field is.
 /// @param kind  one for which is_field_norm() holds   @param field  a vector per node that is here
 /// @param sharing  the ranks that share the field; null: all of it is here
-double field_norm(const cases::measures::Kind& kind, const cases::HexMesh& mesh,
+double field_norm(const cases::measures::Kind& kind, const cases::Mesh& mesh,
                   const std::vector<Eigen::Vector3d>& field, const cases::Sharing* sharing = nullptr);
 
 /// Error of a displacement in a field's norm, percent of the reference's; never negative.
 /// @param zero  up to which size the reference's norm is zero
-std::optional<double> field_error_percent(const cases::measures::Kind& kind, const cases::HexMesh& mesh,
+std::optional<double> field_error_percent(const cases::measures::Kind& kind, const cases::Mesh& mesh,
                                           const std::vector<Eigen::Vector3d>& reference,
                                           const std::vector<Eigen::Vector3d>& other, double zero,
                                           const cases::Sharing* sharing = nullptr);
@@ -116,7 +116,7 @@ constexpr double degrees_per_radian = 57.295779513082320877;
 
 /// The deformation gradient at the centre of a cell.
 /// @param displacement  mm, one per node from the first on
-Eigen::Matrix3d deformation_gradient(const cases::HexMesh& mesh, std::size_t cell,
+Eigen::Matrix3d deformation_gradient(const cases::Mesh& mesh, std::size_t cell,
                                      const std::vector<Eigen::Vector3d>& displacement,
                                      std::size_t first_node = 0);
 

@@ -50,14 +50,15 @@ double component_of(const cases::SymmetricTensor& tensor, cases::TensorComponent
 
 double of_region(const cases::measures::OfCells& measure, const cases::Scene& scene,
                  const cases::Solution& solution, const std::vector<cases::SymmetricTensor>& of_cells) {
-  std::set<std::array<int, 4>> faces; // the region's
+  std::set<cases::FaceNodes> faces; // the region's
   if (measure.has_region())
     for (const auto& face : cases::select(scene.mesh, measure.region).faces)
       faces.insert(cases::sorted(face));
+  const cases::ReferenceCell& shape = cases::reference_cell(scene.mesh.shape);
   const auto is_counted = [&](std::size_t cell) {
-    const std::array<int, 8> vertices = scene.mesh.cells[cell];
+    const cases::CellNodes vertices = scene.mesh.cells[cell];
     return !measure.has_region() ||
-           std::any_of(cases::cell_faces.begin(), cases::cell_faces.end(), [&](const auto& face) {
+           std::any_of(shape.faces.begin(), shape.faces.end(), [&](const auto& face) {
              return faces.count(cases::sorted(cases::pick(vertices, face))) > 0;
            });
   };
@@ -69,7 +70,7 @@ double of_region(const cases::measures::OfCells& measure, const cases::Scene& sc
   for (std::size_t c = here.begin; c < here.end; ++c) {
     if (!is_counted(c)) continue;
     values.push_back(component_of(of_cells[c - here.begin], measure.component));
-    weights.push_back(cases::cell_volume(cases::cell_vertices(scene.mesh, c)));
+    weights.push_back(cases::cell_volume(cases::cell_corners(scene.mesh, c)));
     largest = mechanics::larger(largest, values.back());
     sum += weights.back() * values.back();
     weight += weights.back();

@@ -65,7 +65,7 @@ class TurnedNodes {
   using Step = std::tuple<double, int, int>; ///< degrees from a node that is counted to another one
 
   const TurnedSegment& segment_;
-  const cases::HexMesh& mesh_;
+  const cases::Mesh& mesh_;
   std::vector<Vector3d> turned_;
   std::vector<double> degrees_;
   std::vector<bool> is_counted_;
@@ -85,7 +85,7 @@ class TurnedNodes {
   void find_neighbours() {
     neighbours_.resize(mesh_.nodes.size());
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c)
-      for (const auto& edge : cases::cell_edges) {
+      for (const auto& edge : cases::reference_cell(mesh_.shape).edges) {
         const auto [a, b] = cases::pick(mesh_.cells[c], edge);
         neighbours_[index(a)].push_back(b);
         neighbours_[index(b)].push_back(a);
@@ -129,11 +129,11 @@ void begin_at_supports(TurnedNodes& nodes, const TurnedSegment& segment, const c
 
 } // namespace
 
-Eigen::Matrix3d deformation_gradient(const cases::HexMesh& mesh, std::size_t cell,
+Eigen::Matrix3d deformation_gradient(const cases::Mesh& mesh, std::size_t cell,
                                      const std::vector<Vector3d>& displacement, std::size_t first_node) {
-  const Vector3d centre = Vector3d::Constant(0.5);
-  return mechanics::jacobian(cases::cell_vertices(mesh, cell, displacement, first_node), centre) *
-         mechanics::jacobian(cases::cell_vertices(mesh, cell), centre).inverse();
+  const Vector3d centre = Vector3d::Constant(0.5); // a tetrahedron has one Jacobian everywhere
+  return cases::jacobian(cases::cell_corners(mesh, cell, displacement, first_node), centre) *
+         cases::jacobian(cases::cell_corners(mesh, cell), centre).inverse();
 }
 
 double count_turns(double degrees, const TurnedSegment& segment, const cases::Scene& scene,

@@ -179,10 +179,10 @@ Eigen::MatrixXd canonical_basis(const Eigen::MatrixXd& basis) {
   return canonical;
 }
 
-Eigen::SparseMatrix<double> assemble(const cases::HexMesh& mesh, const msm::CellMatrix& cell) {
+Eigen::SparseMatrix<double> assemble(const cases::Mesh& mesh, const msm::CellMatrix& cell) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(mesh.cells.size() * 576);
-  for (const std::array<int, 8>& nodes : mesh.cells) {
+  for (const cases::CellNodes& nodes : mesh.cells) {
     const auto dof = [&](int local) { return 3 * nodes[local / 3] + local % 3; };
     for (int row = 0; row < 24; ++row)
       for (int column = 0; column < 24; ++column)

@@ -66,7 +66,7 @@ Eigen::MatrixXd basis(const Spectrum& spectrum, const Eigenspace& space);
 Eigen::MatrixXd canonical_basis(const Eigen::MatrixXd& basis);
 
 /// Sum of equal cells' matrices on a mesh's degrees of freedom, 3*node + component, N/mm.
-Eigen::SparseMatrix<double> assemble(const cases::HexMesh& mesh, const msm::CellMatrix& cell);
+Eigen::SparseMatrix<double> assemble(const cases::Mesh& mesh, const msm::CellMatrix& cell);
 
 /// An FEM eigenspace and the MSM eigenspace that it overlaps most.
 struct ModePair {
@@ -169,7 +169,7 @@ void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis
 
 /// Writes into a folder the body's modes side by side: body_modes.csv and body_modes.vtu, and their plot.
 void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes,
-                            const cases::HexMesh& mesh);
+                            const cases::Mesh& mesh);
 
 void write_vibrations_text(std::ostream& out, const VibrationStudy& study);
 
@@ -180,6 +180,6 @@ nlohmann::ordered_json vibrations_to_json(const VibrationStudy& study);
 /// FOLDER/NAME_modes.csv, and FOLDER/NAME_modes.vtu with the shapes that were matched.
 /// @throws InputError if a file cannot be written
 void write_vibrations_files(const std::string& folder, const VibrationStudy& study,
-                            const cases::HexMesh& mesh);
+                            const cases::Mesh& mesh);
 
 } // namespace springproof::compare

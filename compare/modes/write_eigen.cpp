@@ -64,7 +64,7 @@ void write_rows(const std::string& path, const std::string& columns, const Json&
 }
 
 /// Writes shapes of modes on a mesh as arrows.
-void write_shapes(const std::string& path, const cases::HexMesh& mesh,
+void write_shapes(const std::string& path, const cases::Mesh& mesh,
                   const std::vector<cases::PointField>& shapes) {
   write_file(path, [&](std::ostream& out) { write_vtu(out, mesh, shapes); });
 }
@@ -111,10 +111,10 @@ std::vector<Eigen::Vector3d> as_points(const Eigen::VectorXd& vector) {
   return points;
 }
 
-cases::HexMesh cell_mesh(const msm::CellVertices& vertices) {
-  cases::HexMesh mesh;
+cases::Mesh cell_mesh(const msm::CellVertices& vertices) {
+  cases::Mesh mesh;
   mesh.nodes.stored().assign(vertices.begin(), vertices.end());
-  mesh.cells.stored() = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  mesh.cells.stored() = {cases::CellNodes{0, 1, 2, 3, 4, 5, 6, 7}};
   return mesh;
 }
 
@@ -215,7 +215,7 @@ void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis
 }
 
 void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes,
-                            const cases::HexMesh& mesh) {
+                            const cases::Mesh& mesh) {
   std::vector<cases::PointField> fields;
   Json rows = free_modes_to_json(modes);
   for (std::size_t m = 0; m < modes.pairs.size(); ++m) {
@@ -261,7 +261,7 @@ Json vibrations_to_json(const VibrationStudy& study) {
 }
 
 void write_vibrations_files(const std::string& folder, const VibrationStudy& study,
-                            const cases::HexMesh& mesh) {
+                            const cases::Mesh& mesh) {
   std::vector<cases::PointField> fields;
   const auto add = [&](const std::string& model, const MatchedModes& mode, const Eigen::VectorXd& shape) {
     fields.push_back({fmt::format("{}_mode_{}", model, mode.fem_mode + 1),

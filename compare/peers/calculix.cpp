@@ -32,7 +32,7 @@ std::string number(double value) {
   return fmt::format("{:.12e}", value);
 }
 
-void write_mesh(std::ostream& out, const cases::HexMesh& mesh) {
+void write_mesh(std::ostream& out, const cases::Mesh& mesh) {
   fmt::print(out, "*NODE, NSET=NALL\n");
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     const Vector3d& x = mesh.nodes[n];
@@ -135,7 +135,7 @@ std::vector<double> body_cell_volumes(const cases::Scene& scene, const cases::Sc
   const std::size_t n_children = refined.mesh.cells.size() / scene.mesh.cells.size();
   std::vector<double> volumes(scene.mesh.cells.size(), 0.0);
   for (std::size_t c = 0; c < refined.mesh.cells.size(); ++c)
-    volumes[c / n_children] += cases::cell_volume(cases::cell_vertices(refined.mesh, c, displacement));
+    volumes[c / n_children] += cases::cell_volume(cases::cell_corners(refined.mesh, c, displacement));
   return volumes;
 }
 

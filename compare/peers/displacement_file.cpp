@@ -102,11 +102,11 @@ std::vector<GivenDisplacement> displacements_in(const cases::PointCloud& cloud, 
   return nodes;
 }
 
-double same_place(const cases::HexMesh& mesh) {
+double same_place(const cases::Mesh& mesh) {
   return 1e-6 * cases::bounding_box(mesh.nodes).diagonal().norm();
 }
 
-std::vector<Vector3d> match_nodes(const cases::HexMesh& mesh, const std::vector<GivenDisplacement>& given,
+std::vector<Vector3d> match_nodes(const cases::Mesh& mesh, const std::vector<GivenDisplacement>& given,
                                   const std::string& path) {
   std::vector<Vector3d> positions, displacement;
   for (const GivenDisplacement& next : given) positions.push_back(next.position);

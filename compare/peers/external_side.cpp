@@ -37,13 +37,13 @@ std::pair<std::string, bool> read_result_file(const std::string& path) {
   return {is_csv ? cases::read_text_file(path) : cases::read_bytes(path), is_csv};
 }
 
-cases::CellCloud cells_of(const std::string& text, const cases::HexMesh& mesh, const std::string& path) try {
+cases::CellCloud cells_of(const std::string& text, const cases::Mesh& mesh, const std::string& path) try {
   return cases::read_cell_cloud(text, mesh);
 } catch (const std::runtime_error& error) {
   throw cases::InputError(fmt::format("{}: cannot be interpolated: {}", path, error.what()));
 }
 
-ExternalDisplacements read_interpolated(const cases::HexMesh& mesh, const std::string& path) {
+ExternalDisplacements read_interpolated(const cases::Mesh& mesh, const std::string& path) {
   const auto [text, is_csv] = read_result_file(path);
   if (is_csv)
     throw cases::InputError(path + ": --interpolate needs the results' cells, which a .csv does not have");
@@ -56,7 +56,7 @@ ExternalDisplacements read_interpolated(const cases::HexMesh& mesh, const std::s
 }
 
 /// A displacement of all nodes of the mesh as an answer, shared by the ranks.
-Answer answer_of(const cases::HexMesh& mesh, const std::string& message,
+Answer answer_of(const cases::Mesh& mesh, const std::string& message,
                  const std::function<std::vector<Vector3d>()>& displacement) {
   return shared_from_rank_0<Answer>(mesh, [&] {
     Answer answer;
@@ -71,7 +71,7 @@ Answer answer_of(const cases::HexMesh& mesh, const std::string& message,
 }
 
 /// Takes the finite elements' displacement there and back, by which the results' loss is estimated.
-Interpolated interpolated(const Answer& fem, const cases::HexMesh& mesh, const cases::CellCloud& cells) {
+Interpolated interpolated(const Answer& fem, const cases::Mesh& mesh, const cases::CellCloud& cells) {
   Interpolated result;
   result.n_points = cells.cloud.points.size();
   const double at_the_surface = same_place(mesh);
@@ -91,7 +91,7 @@ constexpr double told_support = 0.01; ///< part of the largest displacement
 constexpr double told_work = 0.5;
 
 /// What is held elsewhere than the case holds it; empty: nothing.
-std::string moved_supports(const cases::HexMesh& mesh, const msm::Problem& problem,
+std::string moved_supports(const cases::Mesh& mesh, const msm::Problem& problem,
                            const std::vector<Vector3d>& displacement) {
   const msm::Points held = problem.supports ? problem.on_all_points(problem.supports(1))
                                             : msm::Points(displacement.size(), Vector3d::Zero());
@@ -180,7 +180,7 @@ std::optional<ExternalDisplacements> read_external(const std::vector<Question>& 
                                           cases::name_of(measure.kind)));
   if (questions.front().scene.definition.dynamics)
     throw cases::InputError("--msm-displacements: displacements have no time, and this case has [dynamics]");
-  const cases::HexMesh& mesh = questions.front().scene.mesh;
+  const cases::Mesh& mesh = questions.front().scene.mesh;
   if (transfer == Transfer::interpolated) return read_interpolated(mesh, path);
   return ExternalDisplacements{path, match_nodes(mesh, read_displacements(path), path)};
 }
@@ -200,7 +200,7 @@ HeldAgainstCase hold_against_case(const cases::Scene& scene, const std::vector<V
 
 Answers with_displacements(Answers answers, const cases::Scene& scene,
                            const ExternalDisplacements& external) {
-  const cases::HexMesh& mesh = scene.mesh;
+  const cases::Mesh& mesh = scene.mesh;
   HeldAgainstCase held = hold_against_case(scene, external.displacement);
   answers.msm = answer_of(mesh, held.message, [&] { return external.displacement; });
   answers.msm_warnings = std::move(held.warnings);

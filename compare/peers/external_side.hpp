@@ -34,12 +34,12 @@ const std::vector<Eigen::Vector3d>& finite_displacements(const cases::PointCloud
 
 /// Distance (mm) within which a given node stands for a node of the mesh, besides the rounding of its
 /// position: 1e-6 of the diagonal of the mesh's bounding box, which six digits keep near the origin.
-double same_place(const cases::HexMesh& mesh);
+double same_place(const cases::Mesh& mesh);
 
 /// Displacements in the order of the mesh's nodes, matched by position.
 /// @throws InputError if a given node lies at no node of the mesh, or a node is given twice or not at all
 std::vector<Eigen::Vector3d>
-match_nodes(const cases::HexMesh& mesh, const std::vector<GivenDisplacement>& given, const std::string& path);
+match_nodes(const cases::Mesh& mesh, const std::vector<GivenDisplacement>& given, const std::string& path);
 
 /// Reads a file by its ending: .csv, or one of VTK's.
 /// @throws InputError as the two formats' readers, or if it has another ending

@@ -37,11 +37,11 @@ struct Surface {
   bool operator==(const Surface& other) const { return rest == other.rest && faces == other.faces; }
 };
 
-Surface surface_of(const cases::HexMesh& mesh) {
+Surface surface_of(const cases::Mesh& mesh) {
   Surface surface;
   std::vector<Eigen::Vector3d> points;
   std::vector<long> number(mesh.nodes.size(), -1);
-  for (const std::array<int, 4>& face : cases::boundary_faces(mesh))
+  for (const cases::FaceNodes& face : cases::boundary_faces(mesh))
     for (const int vertex : face) {
       const auto node = static_cast<std::size_t>(vertex);
       if (number[node] < 0) {

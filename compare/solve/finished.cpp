@@ -53,7 +53,7 @@ std::string read_kept(const std::string& path, const std::string& identity) {
 /// @return nothing if there is no result for the question; with a line on standard error if it is damaged
 template<class Result>
 std::optional<Result> find_kept(const std::string& path, const std::string& identity,
-                                const cases::HexMesh& mesh) {
+                                const cases::Mesh& mesh) {
   std::optional<Result> found;
   if (mpi_rank() == 0) try {
       const std::string bytes = read_kept(path, identity);

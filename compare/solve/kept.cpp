@@ -29,7 +29,7 @@ bool is_finite(const Values& values) {
 }
 
 /// Whether fields, if any, have as many finite values as the mesh has nodes and cells.
-bool fit(const std::optional<cases::Fields>& fields, const cases::HexMesh& mesh) {
+bool fit(const std::optional<cases::Fields>& fields, const cases::Mesh& mesh) {
   if (!fields) return true;
   const auto& [reaction, total_energy, has_stress, energy, stress, strain] = *fields;
   const std::size_t n_of_stress = has_stress ? mesh.cells.size() : 0;
@@ -58,7 +58,7 @@ bool is_sound(const cases::Trajectory& motion, std::size_t n_nodes) {
 }
 
 /// @throws std::runtime_error if a solution has not as many values as the mesh has nodes and cells
-void check(const cases::Solution& solution, const cases::HexMesh& mesh) {
+void check(const cases::Solution& solution, const cases::Mesh& mesh) {
   const auto is_empty_or = [&](std::size_t size, std::size_t expected) {
     return size == expected || (size == 0 && solution.status != cases::Status::converged);
   };
@@ -112,15 +112,15 @@ std::string result_in(const std::string& text, const std::string& identity) {
 }
 
 template<class Result>
-Result result_from(const std::string& bytes, const cases::HexMesh& mesh) {
+Result result_from(const std::string& bytes, const cases::Mesh& mesh) {
   Result result;
   cases::from_bytes(bytes, result);
   check_meshes(result);
   for (const cases::Solution* solution : solutions_of(result)) check(*solution, mesh);
   return result;
 }
-template Answer result_from(const std::string&, const cases::HexMesh&);
-template Answers result_from(const std::string&, const cases::HexMesh&);
+template Answer result_from(const std::string&, const cases::Mesh&);
+template Answers result_from(const std::string&, const cases::Mesh&);
 
 std::optional<Shard> shard_from(const std::string& text) {
   const std::size_t stroke = std::min(text.find('/'), text.size());

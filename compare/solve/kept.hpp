@@ -22,7 +22,7 @@ std::string result_in(const std::string& text, const std::string& identity);
 /// @throws std::exception if they hold none: another length, an unknown enumerator, fields that are not of
 /// the mesh, a converged solution without a finite displacement of every node and volume of every cell
 template<class Result>
-Result result_from(const std::string& bytes, const cases::HexMesh& mesh);
+Result result_from(const std::string& bytes, const cases::Mesh& mesh);
 
 struct Shard {
   int index = 1; ///< from 1 to count

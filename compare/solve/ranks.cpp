@@ -44,7 +44,7 @@ cases::Solution without_values(cases::Solution& solution) {
 
 /// Gives every rank its share of the values.
 /// @param whole  rank 0's; nothing on the others   @param here  has no values before
-void deal_out(const cases::Solution& whole, const cases::HexMesh& mesh, cases::Solution& here) {
+void deal_out(const cases::Solution& whole, const cases::Mesh& mesh, cases::Solution& here) {
   here.sharing = mechanics::share_out(mesh, MPI_COMM_WORLD);
   const cases::Sharing& sharing = *here.sharing;
   here.displacement = sharing.deal(numbered(whole.displacement));
@@ -105,7 +105,7 @@ void check_same_on_ranks(const std::string& bytes) {
 }
 
 template<class Result>
-Result shared_from_rank_0(const cases::HexMesh& mesh, const std::function<Result()>& find) {
+Result shared_from_rank_0(const cases::Mesh& mesh, const std::function<Result()>& find) {
   if (n_mpi_ranks() == 1) return find();
   Result result;
   std::vector<cases::Solution> whole; // on rank 0
@@ -121,8 +121,8 @@ Result shared_from_rank_0(const cases::HexMesh& mesh, const std::function<Result
       deal_out(whole[s], mesh, solution);
   return result;
 }
-template Answer shared_from_rank_0(const cases::HexMesh&, const std::function<Answer()>&);
-template Answers shared_from_rank_0(const cases::HexMesh&, const std::function<Answers()>&);
+template Answer shared_from_rank_0(const cases::Mesh&, const std::function<Answer()>&);
+template Answers shared_from_rank_0(const cases::Mesh&, const std::function<Answers()>&);
 
 cases::Solution gathered(cases::Solution solution) {
   if (!solution.sharing) return solution;

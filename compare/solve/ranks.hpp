@@ -23,7 +23,7 @@ void check_same_on_ranks(const std::string& bytes);
 /// An Answer, or Answers, that rank 0 alone finds, shared by all ranks.
 /// @param find  called on rank 0   @throws InputError that it throws, on every rank
 template<class Result>
-Result shared_from_rank_0(const cases::HexMesh& mesh, const std::function<Result()>& find);
+Result shared_from_rank_0(const cases::Mesh& mesh, const std::function<Result()>& find);
 
 /// The solution with all of its values on every rank.
 cases::Solution gathered(cases::Solution solution);

@@ -111,7 +111,7 @@ void count_warnings(const DesignedCells& cells, msm::DesignResult& all) {
 }
 
 /// Displacements to start from, mm; empty: rest.
-msm::Points start_points(const cases::Stress& stress, const cases::HexMesh& mesh) {
+msm::Points start_points(const cases::Stress& stress, const cases::Mesh& mesh) {
   msm::Points start;
   if (stress.start == cases::Start::perturbed) {
     std::mt19937 generator(static_cast<unsigned>(stress.seed));

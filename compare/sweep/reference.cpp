@@ -38,7 +38,7 @@ cases::Solution as_solution(const cases::Scene& scene, const Field& displacement
   solution.status = cases::Status::converged;
   solution.displacement = displacement;
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
-    solution.cell_volume.push_back(cases::cell_volume(cases::cell_vertices(scene.mesh, c, displacement)));
+    solution.cell_volume.push_back(cases::cell_volume(cases::cell_corners(scene.mesh, c, displacement)));
   return solution;
 }
 

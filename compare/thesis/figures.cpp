@@ -42,13 +42,14 @@ struct Face {
 
 /// The surface's faces that look at the viewer, the farthest first.
 /// @param displacement  empty: at rest
-std::vector<Face> visible_faces(const cases::HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
+std::vector<Face> visible_faces(const cases::Mesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
                                 const Eigen::Matrix3d& view) {
   const Eigen::Vector3d towards = view.row(2);
   std::vector<Face> faces;
-  for (const std::array<int, 4>& nodes : cases::boundary_faces(mesh)) {
-    Face face{nodes, {}};
+  for (const cases::FaceNodes& nodes : cases::boundary_faces(mesh)) {
+    Face face{{}, {}};
     for (std::size_t v = 0; v < 4; ++v) {
+      face.nodes[v] = nodes[v];
       face.corners[v] = mesh.nodes[nodes[v]];
       if (!displacement.empty()) face.corners[v] += displacement[nodes[v]];
     }
@@ -109,7 +110,7 @@ std::vector<std::pair<std::string, std::vector<Line>>> blocks_of(const Overlay& 
 }
 
 /// Decimals of coordinates: four, and more for a body smaller than 1 mm.
-int decimals_of(const cases::HexMesh& mesh) {
+int decimals_of(const cases::Mesh& mesh) {
   const double size = cases::bounding_box(mesh.nodes).sizes().maxCoeff();
   return 4 + std::max(0, -static_cast<int>(std::floor(std::log10(size))));
 }
@@ -242,7 +243,7 @@ void draw_bars(const std::string& folder, const ThesisResults& results, std::vec
 } // namespace
 
 Overlay overlay_of(const Comparison& comparison, const std::string& title) {
-  const cases::HexMesh* mesh = &comparison.scene.mesh;
+  const cases::Mesh* mesh = &comparison.scene.mesh;
   return {title,
           {mesh, &comparison.answers.fem.solution.displacement},
           {mesh, &comparison.answers.msm.solution.displacement}};

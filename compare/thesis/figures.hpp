@@ -10,7 +10,7 @@ namespace springproof::compare {
 
 /// A mesh and where its nodes went; without displacements when that side has none to show.
 struct DeformedBody {
-  const cases::HexMesh* mesh;
+  const cases::Mesh* mesh;
   const std::vector<Eigen::Vector3d>* displacement; ///< mm, one per node; empty: nothing is drawn
   bool is_there() const { return !displacement->empty(); }
 };

@@ -217,10 +217,10 @@ ThesisResults regenerate(const std::vector<std::string>& tables, const AnswerQue
 }
 
 CaseVolumes volumes_of(const Comparison& comparison, const Trace& trace) {
-  const cases::HexMesh& mesh = comparison.scene.mesh;
+  const cases::Mesh& mesh = comparison.scene.mesh;
   std::vector<double> rest;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    rest.push_back(cases::cell_volume(cases::cell_vertices(mesh, c)));
+    rest.push_back(cases::cell_volume(cases::cell_corners(mesh, c)));
   return {comparison.scene.definition.name,
           sum(rest),
           sum(rest) / static_cast<double>(rest.size()),

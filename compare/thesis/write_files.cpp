@@ -76,7 +76,7 @@ void write_volumes(std::ostream& out, const ThesisResults& results) {
     for (const auto& [model, side] : {std::pair("fem", &c.answers.fem), std::pair("msm", &c.answers.msm)})
       for (std::size_t cell = 0; cell < side->solution.cell_volume.size(); ++cell)
         csv.row(c.scene.definition.name, model, cell,
-                cases::cell_volume(cases::cell_vertices(c.scene.mesh, cell)),
+                cases::cell_volume(cases::cell_corners(c.scene.mesh, cell)),
                 side->solution.cell_volume[cell]);
 }
 

@@ -18,10 +18,10 @@ struct Body {
   double volume = 0;    ///< mm³
 };
 
-Body measured_body(const cases::HexMesh& mesh) {
+Body measured_body(const cases::Mesh& mesh) {
   Body body{cases::bounding_box(mesh.nodes).sizes()};
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    body.volume += cases::cell_volume(cases::cell_vertices(mesh, c));
+    body.volume += cases::cell_volume(cases::cell_corners(mesh, c));
   return body;
 }
 

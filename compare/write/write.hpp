@@ -164,7 +164,7 @@ const cases::Sharing* sharing_of(const Comparison& comparison);
 void write_vtu(std::ostream& out, const Comparison& comparison);
 
 /// Any vectors on a mesh's nodes as a .vtu.
-void write_vtu(std::ostream& out, const cases::HexMesh& mesh, const std::vector<cases::PointField>& fields);
+void write_vtu(std::ostream& out, const cases::Mesh& mesh, const std::vector<cases::PointField>& fields);
 
 /// Removes FOLDER/NAME_NUMBER.vtu of this number and above, of an earlier run, and the folder if nothing is
 /// left.

@@ -29,7 +29,7 @@ std::vector<double> von_mises_of(const std::vector<cases::SymmetricTensor>& stre
 }
 
 /// @param cells  that the fields are of
-void add_fields(cases::GridFields& all, const std::string& side, const cases::HexMesh& mesh,
+void add_fields(cases::GridFields& all, const std::string& side, const cases::Mesh& mesh,
                 const cases::Range& cells, const cases::Fields& fields) {
   all.point_vectors.push_back({side + "_reaction", fields.reaction, "N"});
   all.cell_tensors.push_back({side + "_strain", fields.strain, "1"});
@@ -38,11 +38,11 @@ void add_fields(cases::GridFields& all, const std::string& side, const cases::He
   all.cell_numbers.push_back({side + "_von_mises", von_mises_of(fields.stress), "MPa"});
   std::vector<double> density = fields.strain_energy;
   for (std::size_t c = 0; c < density.size(); ++c)
-    density[c] /= cases::cell_volume(cases::cell_vertices(mesh, cells.begin + c));
+    density[c] /= cases::cell_volume(cases::cell_corners(mesh, cells.begin + c));
   all.cell_numbers.push_back({side + "_strain_energy_density", density, "N mm/mm3"});
 }
 
-void add_side(cases::GridFields& all, const std::string& side, const cases::HexMesh& mesh,
+void add_side(cases::GridFields& all, const std::string& side, const cases::Mesh& mesh,
               const cases::Solution& solution) {
   if (solution.status != cases::Status::converged) return;
   const cases::Sharing* const sharing = solution.sharing.get();
@@ -54,7 +54,7 @@ void add_side(cases::GridFields& all, const std::string& side, const cases::HexM
 }
 
 /// What the springs are off the finite elements on the same mesh.
-void add_errors(cases::GridFields& all, const cases::HexMesh& mesh, const cases::Solution& fem,
+void add_errors(cases::GridFields& all, const cases::Mesh& mesh, const cases::Solution& fem,
                 const cases::Solution& msm) {
   if (fem.status != cases::Status::converged || msm.status != cases::Status::converged) return;
   std::vector<Vector3d> difference = msm.displacement;
@@ -96,11 +96,12 @@ namespace fs = std::filesystem;
 
 /// A share's cells as a mesh by itself; the fields' values of its nodes take the place of those of all that
 /// are here.
-cases::HexMesh piece_of(const cases::HexMesh& mesh, const cases::Share& share, cases::GridFields& fields) {
+cases::Mesh piece_of(const cases::Mesh& mesh, const cases::Share& share, cases::GridFields& fields) {
   std::vector<int> number(share.nodes.size(), -1); ///< in the piece, of each node that is here
   for (std::size_t c = share.cells.begin; c < share.cells.end; ++c)
     for (const int node : mesh.cells[c]) number[cases::index(node) - share.nodes.begin] = 0;
-  cases::HexMesh piece;
+  cases::Mesh piece;
+  piece.shape = mesh.shape;
   std::vector<Eigen::Vector3d>& nodes = piece.nodes.stored();
   for (std::size_t n = 0; n < number.size(); ++n) {
     if (number[n] < 0) continue;
@@ -111,7 +112,7 @@ cases::HexMesh piece_of(const cases::HexMesh& mesh, const cases::Share& share, c
   }
   for (auto& field : fields.point_vectors) field.values.resize(nodes.size());
   for (auto& field : fields.point_numbers) field.values.resize(nodes.size());
-  std::vector<std::array<int, 8>>& cells = piece.cells.stored();
+  std::vector<cases::CellNodes>& cells = piece.cells.stored();
   for (std::size_t c = share.cells.begin; c < share.cells.end; ++c) {
     cells.push_back(mesh.cells[c]);
     for (int& node : cells.back()) node = number[cases::index(node) - share.nodes.begin];
@@ -183,7 +184,7 @@ void write_pieces(const Files& files, const Comparison& comparison, const cases:
   const std::vector<Eigen::Vector3d> displacement = gathered_for_springs(comparison);
   run_on_all_ranks([&] {
     if (share.cells.size() == 0) return;
-    const cases::HexMesh piece = piece_of(comparison.scene.mesh, share, fields);
+    const cases::Mesh piece = piece_of(comparison.scene.mesh, share, fields);
     write_file(files.folder + "/" + files.piece(mpi_rank()),
                [&](std::ostream& out) { out << cases::vtk().write_unstructured_grid(piece, fields); });
   });
@@ -288,7 +289,7 @@ void write_vtu(std::ostream& out, const Comparison& comparison) {
   out << cases::vtk().write_unstructured_grid(comparison.scene.mesh, grid_fields_of(comparison));
 }
 
-void write_vtu(std::ostream& out, const cases::HexMesh& mesh, const std::vector<cases::PointField>& fields) {
+void write_vtu(std::ostream& out, const cases::Mesh& mesh, const std::vector<cases::PointField>& fields) {
   out << cases::vtk().write_unstructured_grid(mesh, {fields});
 }
 

@@ -1,6 +1,6 @@
 #include "fem_reference/grid/body.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "cases/scene/loads.hpp"
 #include "fem_reference/cuboid.hpp"
 #include "mechanics/hexahedron.hpp"
@@ -154,7 +154,7 @@ void add_weights(const cases::Scene& scene, bool is_quadratic, const Places& pla
                  const AddForce& add_force) {
   const Eigen::Vector3d gravity = cases::gravity(scene);
   if (gravity.isZero(0)) return;
-  const cases::HexMesh& mesh = scene.mesh;
+  const cases::Mesh& mesh = scene.mesh;
   const int n = is_quadratic ? 3 : 2; // nodes along an edge
   const double along[3] = {is_quadratic ? 1. / 6 : 1. / 2, is_quadratic ? 4. / 6 : 1. / 2, 1. / 6};
   const double volume = places.spacing.prod() * (is_quadratic ? 8 : 1);

@@ -1,4 +1,4 @@
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "fem_reference/grid/grid_equations.hpp"
 
 #include <algorithm>

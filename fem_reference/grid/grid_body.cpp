@@ -1,6 +1,6 @@
 #include "fem_reference/grid/grid_body.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "fem_reference/cuboid.hpp"
 #include "fem_reference/grid/on_grid.hpp"
 #include "mechanics/ranks/share_out.hpp"

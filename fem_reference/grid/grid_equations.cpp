@@ -1,6 +1,6 @@
 #include "fem_reference/grid/grid_equations.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "mechanics/grid/krylov.hpp"
 
 #include <cmath>

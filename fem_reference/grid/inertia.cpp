@@ -12,7 +12,7 @@ using cases::index;
 /// Calls action(cell of the scene's mesh, its entry) for the cells that a rank holds.
 template<class Action>
 void for_each_cell(const cases::Scene& scene, const Places& places, const Action& action) {
-  const cases::HexMesh& mesh = scene.mesh;
+  const cases::Mesh& mesh = scene.mesh;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const Place lower = places.of(mesh.nodes[index(mesh.cells[c][0])]);
     const int layer = lower.z() - places.body.slab.first_of_grid();

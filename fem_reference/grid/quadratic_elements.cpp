@@ -1,6 +1,6 @@
 #include "fem_reference/grid/quadratic_elements.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "fem_reference/cuboid.hpp"
 
 #include <utility>

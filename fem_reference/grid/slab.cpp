@@ -1,6 +1,6 @@
 #include "fem_reference/grid/slab.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 
 #include <algorithm>
 #include <array>

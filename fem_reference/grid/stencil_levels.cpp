@@ -1,6 +1,6 @@
 #include "fem_reference/grid/stencil_levels.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 
 namespace springproof::fem_reference::grid {
 

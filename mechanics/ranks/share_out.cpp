@@ -149,7 +149,7 @@ bool is_mpi_started() {
   return is_started != 0;
 }
 
-std::shared_ptr<const cases::Sharing> share_out(const cases::HexMesh& mesh, MPI_Comm communicator) {
+std::shared_ptr<const cases::Sharing> share_out(const cases::Mesh& mesh, MPI_Comm communicator) {
   if (!is_mpi_started()) return nullptr;
   int rank = 0, n_ranks = 1;
   MPI_Comm_rank(communicator, &rank);

@@ -2,7 +2,6 @@
 
 #include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/vtk_functions.hpp"
-#include "mechanics/hexahedron.hpp"
 
 #include <Eigen/LU>
 #include <cmath>
@@ -15,24 +14,25 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Returns the step, to first order, from a point of the unit cube to the one that the map takes to `place`.
-Vector3d step_to(const Vector3d& place, const HexahedronVertices& vertices, const Vector3d& at) {
-  return jacobian(vertices, at).partialPivLu().solve(place - image(vertices, at));
+/// Returns the step, to first order, from a point of the reference cell to the one that the map takes to
+/// `place`.
+Vector3d step_to(const Vector3d& place, const cases::CellCorners& corners, const Vector3d& at) {
+  return cases::jacobian(corners, at).partialPivLu().solve(place - cases::image(corners, at));
 }
 
 } // namespace
 
-EmbeddedSurface embed(cases::TriangleMesh surface, const cases::HexMesh& mesh) {
+EmbeddedSurface embed(cases::TriangleMesh surface, const cases::Mesh& mesh) {
   EmbeddedSurface embedded;
   const auto places = cases::vtk().nearest_in_cells(mesh, surface.vertices);
   for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
     const auto& [cell, nearest] = places[v];
-    const HexahedronVertices vertices = cases::cell_vertices(mesh, cell);
+    const cases::CellCorners corners = cases::cell_corners(mesh, cell);
     // VTK finds the cell and its nearest point to some digits; what these lack, the first order adds.
-    const Vector3d at = cases::place_in_cell(vertices, nearest).value_or(Vector3d::Constant(0.5));
-    const Vector3d inside = at.cwiseMax(0).cwiseMin(1);
-    const cases::CellPoint place{cell, inside, step_to(surface.vertices[v], vertices, inside)};
-    embedded.vertices.push_back({mesh.cells[cell], cases::weights_at(place), place});
+    const Vector3d at = cases::place_in_cell(corners, nearest).value_or(Vector3d::Constant(0.25));
+    const Vector3d inside = cases::moved_inside(mesh.shape, at);
+    const cases::CellPoint place{cell, inside, step_to(surface.vertices[v], corners, inside)};
+    embedded.vertices.push_back({mesh.cells[cell], cases::weights_at(mesh.shape, place), place});
     for (const double weight : embedded.vertices.back().weights)
       if (!std::isfinite(weight))
         throw std::runtime_error("the cell nearest to vertex " + std::to_string(v) +
@@ -47,7 +47,8 @@ EmbeddedSurface embed(cases::TriangleMesh surface, const cases::HexMesh& mesh) {
 
 Vector3d displacement_at(const EmbeddedPoint& point, const std::vector<Vector3d>& displacement) {
   Vector3d sum = Vector3d::Zero();
-  for (std::size_t v = 0; v < 8; ++v) sum += point.weights[v] * displacement[cases::index(point.nodes[v])];
+  for (std::size_t v = 0; v < point.nodes.size(); ++v)
+    sum += point.weights[v] * displacement[cases::index(point.nodes[v])];
   return sum;
 }
 

@@ -5,11 +5,11 @@
 
 namespace springproof::mechanics {
 
-/// A place of a body of hexahedra, as a sum over the nodes of one of its cells.
+/// A place of a body, as a sum over the nodes of one of its cells.
 struct EmbeddedPoint {
-  std::array<int, 8> nodes;
-  std::array<double, 8> weights; ///< add up to 1; negative ones outside of the cell
-  cases::CellPoint place;        ///< the place that has these weights
+  cases::CellNodes nodes;
+  cases::ShapeValues weights; ///< add up to 1; negative ones outside of the cell
+  cases::CellPoint place;     ///< the place that has these weights
 };
 
 /// A surface that a body takes along.
@@ -21,12 +21,12 @@ struct EmbeddedSurface {
 };
 
 /// Binds the vertices of a surface to the cells of a body at rest. A vertex in a cell has the weights of its
-/// trilinear coordinates there. One outside is bound to the nearest point of the nearest cell, and its
+/// coordinates in the cell. One outside is bound to the nearest point of the nearest cell, and its
 /// weights are extrapolated from there to first order: u(X) = u(P) + grad u(P) (X - P). So a linear
 /// displacement is reproduced wherever a vertex lies, a turned body turns all of its surface, and weights
 /// grow with the distance and no faster, as trilinear coordinates outside of their cell would.
 /// @throws std::runtime_error if the nearest cell of a vertex is degenerate there
-EmbeddedSurface embed(cases::TriangleMesh surface, const cases::HexMesh& mesh);
+EmbeddedSurface embed(cases::TriangleMesh surface, const cases::Mesh& mesh);
 
 /// Displacement of an embedded point.  @param displacement  mm, one per node of the body
 Eigen::Vector3d displacement_at(const EmbeddedPoint& point, const std::vector<Eigen::Vector3d>& displacement);

@@ -33,7 +33,7 @@ Elasticity affine_elasticity(const CellMatrix& matrix, const CellVertices& verti
     for (int v = 0; v < 8; ++v)
       strains.block<3, 1>(3 * v, c) = strain * vertices[static_cast<std::size_t>(v)];
   }
-  return strains.transpose() * matrix * strains / cases::cell_volume(vertices);
+  return strains.transpose() * matrix * strains / volume_of(vertices);
 }
 
 /// Constants by axis: E along x, y, z, G between them (yz, xz, xy), nu as the strain along the second axis
@@ -90,7 +90,7 @@ double cube_edge(const CellVertices& vertices) {
 }
 
 CellMatrix cell_stiffness_matrix(const CellVertices& vertices, const CellTerms& terms) {
-  const Lattice lattice = cell_lattice(terms, vertices);
+  const Lattice lattice = cell_lattice(terms, {vertices.begin(), vertices.end()});
   CellMatrix matrix = CellMatrix::Zero();
   visit_tangent_blocks(lattice, lattice.rest, Clamp::no,
                        [&](int row, int column, const Eigen::Matrix3d& block) {

@@ -114,7 +114,7 @@ std::vector<CellTerms> springs_of_tetrahedra(const CellPositions& cell, const St
   for (int kind = 0; kind < 2; ++kind)
     for (const std::array<int, 4>& vertices : five_tetrahedra(kind)) {
       const TetrahedronPositions x = pick_positions(cell, vertices);
-      const double volume = tetrahedron_volume(x);
+      const double volume = volume_of(x);
       for (const auto& [a, b] : tetrahedron_edges)
         add_spring(kinds[cases::index(kind)], vertices[cases::index(a)], vertices[cases::index(b)],
                    stiffness(volume, (x[cases::index(b)] - x[cases::index(a)]).norm()));

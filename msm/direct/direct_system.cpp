@@ -158,9 +158,12 @@ class DirectSystem : public SpringSystem {
   }
 
   bool has_negative_terms() const {
-    const auto& cells = problem_.lattice.volume_cells;
-    return has_negative_springs() || !problem_.lattice.tetrahedra.empty() ||
-           std::any_of(cells.begin(), cells.end(), [](const VolumeCell& c) { return c.stiffness < 0; });
+    const Lattice& lattice = problem_.lattice;
+    const auto has_negative = [](const auto& terms) {
+      return std::any_of(terms.begin(), terms.end(), [](const auto& term) { return term.stiffness < 0; });
+    };
+    return has_negative_springs() || !lattice.tetrahedra.empty() || has_negative(lattice.volume_cells) ||
+           has_negative(lattice.volume_tetrahedra);
   }
 
   double reaction(const Vector& displacement) override {

@@ -1,6 +1,6 @@
 #include "msm/grid/body.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "mechanics/grid/transfer.hpp"
 
 #include <Eigen/Geometry>

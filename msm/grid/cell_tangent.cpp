@@ -1,6 +1,6 @@
 #include "msm/grid/cell_tangent.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "msm/spring.hpp"
 
 namespace springproof::msm::grid {
@@ -58,10 +58,10 @@ CellMatrix CellTangent::at(const CellSprings& cell, const CellPositions& displac
   }
   if (cell.volume == 0) return sum;
   const double rest_volume = body_.spacing.prod();
-  const auto gradient = trilinear_volume_gradient(x);
+  const auto gradient = volume_gradient(x);
   const double slope = with_law<double, Exact>(kind_of(body_.exponents), [&](auto law) {
     return typename decltype(law)::type::Volume{rest_volume}.template slope<Clamp::yes>(
-        trilinear_volume(x), cell.volume / rest_volume);
+        volume_of(x), cell.volume / rest_volume);
   });
   for (int v = 0; v < 8; ++v)
     for (int w = 0; w < 8; ++w) add(v, w, slope * gradient[index(v)] * gradient[index(w)].transpose());

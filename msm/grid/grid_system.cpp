@@ -151,7 +151,7 @@ class MatrixFreeSystem : public GridSystem {
         for (int i = 0; i < body.cells[0]; ++i) {
           if (body.part && !body.part->owns(i, j, k)) continue; // another rank counts it
           if (!body.is_uniform() && body.cell(i, j, k).is_empty()) continue;
-          CellPositions vertices;
+          cases::CellCorners vertices(8);
           for (int v = 0; v < 8; ++v) {
             const int node[3] = {i + (v & 1), j + ((v >> 1) & 1), k + (v >> 2)};
             for (int a = 0; a < 3; ++a)

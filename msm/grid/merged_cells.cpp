@@ -1,6 +1,6 @@
 #include "msm/grid/merged_cells.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "mechanics/grid/transfer.hpp"
 #include "msm/grid/cell_tangent.hpp"
 #include "msm/grid/merged_cells.hpp"

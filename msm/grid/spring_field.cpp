@@ -1,6 +1,6 @@
 #include "msm/grid/spring_field.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "mechanics/grid/cycle.hpp"
 #include "msm/grid/cell_tangent.hpp"
 

@@ -1,6 +1,6 @@
 #include "msm/grid/transfer.hpp"
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 
 namespace springproof::msm::grid {
 

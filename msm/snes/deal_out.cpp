@@ -1,4 +1,4 @@
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "mechanics/petsc/handles.hpp"
 #include "msm/snes/snes.hpp"
 

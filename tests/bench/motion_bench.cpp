@@ -1,4 +1,4 @@
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "mechanics/dynamics/time_integrator.hpp"
 #include "msm/grid/moving_grid.hpp"
 
@@ -35,7 +35,7 @@ struct Moving {
 };
 
 /// A problem whose nodes are held up to a height.
-msm::Problem held_at(const cases::HexMesh& mesh, double height) {
+msm::Problem held_at(const cases::Mesh& mesh, double height) {
   msm::Problem problem{mesh, {}, {}, std::vector<bool>(3 * mesh.nodes.size()), {}};
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     if (mesh.nodes[n].z() < height + 1e-6)
@@ -116,7 +116,7 @@ void interactive(benchmark::State& state, const msm::CellStiffness& cell) {
             (Eigen::Vector3d(i + 0.5, j + 0.5, k + 0.5) - half).cwiseQuotient(1.15 * half).squaredNorm() <=
             1);
       }
-  const cases::HexMesh mesh = cases::make_grid_mesh(grid);
+  const cases::Mesh mesh = cases::make_grid_mesh(grid);
   msm::Inertia inertia;
   inertia.mass.assign(mesh.nodes.size(), 1.3e-3 / static_cast<double>(mesh.nodes.size()));
   inertia.mass_damping.assign(mesh.nodes.size(), 0);
@@ -139,10 +139,10 @@ void interactive(benchmark::State& state, const msm::CellStiffness& cell) {
 /// Range: threads, -log10 of the tolerance.
 void cube(benchmark::State& state, const msm::CellStiffness& cell, bool is_consistent) {
   const int n = 40;
-  const cases::HexMesh mesh = cases::make_box_mesh({1.0 * n, 1.0 * n, 1.0 * n}, {n, n, n});
+  const cases::Mesh mesh = cases::make_box_mesh({1.0 * n, 1.0 * n, 1.0 * n}, {n, n, n});
   msm::Inertia inertia;
   inertia.mass.assign(mesh.nodes.size(), 0);
-  for (const std::array<int, 8>& vertices : mesh.cells)
+  for (const cases::CellNodes& vertices : mesh.cells)
     for (const int node : vertices) inertia.mass[cases::index(node)] += 1e-9 / 8;
   inertia.mass_damping.assign(mesh.nodes.size(), 0);
   if (is_consistent) {

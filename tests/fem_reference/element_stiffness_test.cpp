@@ -1,7 +1,7 @@
 #include "fem_reference/element_stiffness.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "tests/support/largest.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -36,7 +36,7 @@ Displacement affine(const Vertices& vertices, const Eigen::Matrix3d& gradient) {
 }
 
 double volume(const Vertices& vertices) {
-  return cases::cell_volume(vertices);
+  return cases::cell_volume({vertices.begin(), vertices.end()});
 }
 
 } // namespace

@@ -229,8 +229,8 @@ TEST_CASE("a cell's stress, strain and energy approach their limits with the squ
 }
 
 TEST_CASE("a refined cell knows its place in the body's cell") {
-  const cases::HexMesh body = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
-  const cases::HexMesh fine = cases::refine(cases::refine(body));
+  const cases::Mesh body = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
+  const cases::Mesh fine = cases::refine(cases::refine(body));
   for (std::size_t c = 0; c < fine.cells.size(); ++c) {
     const ElementPlace place = place_of(c, 2);
     const Vector3d corner = fine.nodes[cases::index(fine.cells[c][0])];

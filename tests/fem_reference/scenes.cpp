@@ -14,7 +14,7 @@ void push(cases::Case& definition, const std::string& where, const Vector3d& for
   definition.loads.push_back({cases::Region{where}, cases::loads::NodalForce{force}});
 }
 
-int nearest(const cases::HexMesh& mesh, const Vector3d& point) {
+int nearest(const cases::Mesh& mesh, const Vector3d& point) {
   cases::Region r;
   r.near = point;
   return cases::select_node(mesh, r);
@@ -68,7 +68,7 @@ cases::Case cube(Test test, LoadSet set, const cases::Material& material, cases:
   return c;
 }
 
-std::array<double, 2> cube_measures(Test test, const cases::HexMesh& mesh,
+std::array<double, 2> cube_measures(Test test, const cases::Mesh& mesh,
                                     const std::vector<Vector3d>& displacement) {
   const auto deformed = [&](double x, double y, double z) -> Vector3d {
     const auto n = static_cast<std::size_t>(nearest(mesh, {x, y, z}));

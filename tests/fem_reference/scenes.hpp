@@ -34,7 +34,7 @@ cases::Ogden thesis_ogden();
 cases::TransverselyIsotropic fibrous(const Eigen::Vector3d& fibre);
 
 /// The two measures of a test, by their definition in the thesis: heights (mm), tilts or twists (degrees).
-std::array<double, 2> cube_measures(Test test, const cases::HexMesh& mesh,
+std::array<double, 2> cube_measures(Test test, const cases::Mesh& mesh,
                                     const std::vector<Eigen::Vector3d>& displacement);
 
 /// A box whose interior nodes have been moved, so that no two cells are alike; every node of its surface is

@@ -12,7 +12,7 @@ namespace fuzz {
 template<class Read>
 void read_and_match(const Read& read, const std::uint8_t* bytes, std::size_t size) {
   using namespace springproof;
-  static const cases::HexMesh mesh = cases::make_box_mesh({2, 2, 2}, {2, 2, 2});
+  static const cases::Mesh mesh = cases::make_box_mesh({2, 2, 2}, {2, 2, 2});
   try {
     const auto given = read({reinterpret_cast<const char*>(bytes), size}, "given");
     for (const compare::GivenDisplacement& node : given)

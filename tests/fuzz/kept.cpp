@@ -23,7 +23,7 @@ void read_any(const Read& read) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(bytes), size);
-  static const cases::HexMesh mesh = cases::make_box_mesh({1, 1, 1}, {1, 1, 1});
+  static const cases::Mesh mesh = cases::make_box_mesh({1, 1, 1}, {1, 1, 1});
   PROMISE(compare::result_in(compare::kept_text("cell", text), "cell") == text);
   read_any([&] { compare::result_in(text, "cell"); });
   read_any([&] {

@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   try {
     cases::LabelGrid grid = cases::label_grid_from(content, labels.classes.size());
     cases::keep_piece(grid, labels);
-    const cases::HexMesh mesh = cases::mesh_of(grid, labels);
+    const cases::Mesh mesh = cases::mesh_of(grid, labels);
     PROMISE(!mesh.cells.empty() && mesh.grid && mesh.group_of_cell.size() == mesh.cells.size());
   } catch (const std::exception&) {
     // what wrong bytes are answered with

@@ -11,7 +11,7 @@ using namespace springproof;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   try {
-    const cases::HexMesh mesh = cases::mesh_from({reinterpret_cast<const char*>(bytes), size});
+    const cases::Mesh mesh = cases::mesh_from({reinterpret_cast<const char*>(bytes), size});
     PROMISE(!mesh.cells.empty());
     for (const Eigen::Vector3d& node : mesh.nodes) PROMISE(node.allFinite());
     PROMISE(mesh.group_of_cell.empty() || mesh.group_of_cell.size() == mesh.cells.size());

@@ -13,20 +13,20 @@ using namespace springproof;
 
 namespace {
 
-cases::HexMesh bar() {
-  cases::HexMesh mesh = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
+cases::Mesh bar() {
+  cases::Mesh mesh = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
   mesh.groups["end"] = {{0, 3, 6, 9}, {{0, 3}}, {{0, 6, 9, 3}}};
   mesh.group_of_cell = {"left", "right"};
   return mesh;
 }
 
-cases::HexMesh wedge() {
-  cases::HexMesh mesh = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
+cases::Mesh wedge() {
+  cases::Mesh mesh = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
   mesh.nodes.stored()[2].x() += 0.3;
   return mesh;
 }
 
-cases::Surface boundary(const cases::HexMesh& mesh) {
+cases::Surface boundary(const cases::Mesh& mesh) {
   cases::Surface surface;
   for (const auto& face : cases::boundary_faces(mesh))
     for (const std::array<std::size_t, 3>& corners : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 3}}) {

@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
       }
     const double edge = body.sizes().maxCoeff() / 8;
     if (!(edge > 0) || !std::isfinite(edge)) return 0; // no case file has such an edge
-    const cases::HexMesh mesh = cases::make_voxel_mesh(surface, {{"body.stl"}, edge});
+    const cases::Mesh mesh = cases::make_voxel_mesh(surface, {{"body.stl"}, edge});
     PROMISE(!mesh.cells.empty() && mesh.grid);
   } catch (const std::exception&) {
     // what wrong bytes are answered with

@@ -11,7 +11,7 @@
 using namespace springproof;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-  static const cases::HexMesh mesh = cases::make_box_mesh({2, 2, 2}, {2, 2, 2});
+  static const cases::Mesh mesh = cases::make_box_mesh({2, 2, 2}, {2, 2, 2});
   try {
     cases::TriangleMesh surface =
         cases::joined(cases::surface_from({reinterpret_cast<const char*>(bytes), size}));

@@ -72,7 +72,7 @@ TEST_CASE("a lattice with cells missing has the springs of the present cells alo
 }
 
 TEST_CASE("cells of different stiffness add what each brings") {
-  const cases::HexMesh mesh = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
+  const cases::Mesh mesh = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
   const Lattice lattice = msm::make_lattice(mesh, {bodies::cell(1, 2, 3), bodies::cell(10, 20, 30)});
   const double tolerance = 1e-14; // relative; a sum of two terms
   CHECK(between(lattice, {1, 0, 0}, {1, 1, 0}) == Approx(11).epsilon(tolerance));
@@ -141,16 +141,16 @@ constexpr double volume_step =
 
 TEST_CASE("the volume of a distorted cell is what quadrature gives") {
   const msm::CellPositions x = distorted_cell();
-  CHECK(msm::trilinear_volume(x) == Approx(cases::cell_volume(x)).epsilon(1e-14)); // rounding
+  CHECK(msm::volume_of(x) == Approx(cases::cell_volume({x.begin(), x.end()})).epsilon(1e-14)); // rounding
 }
 
 TEST_CASE("the gradient of a cell's volume is its derivative") {
   const msm::CellPositions x = distorted_cell();
-  const auto gradient = msm::trilinear_volume_gradient(x);
+  const auto gradient = msm::volume_gradient(x);
   for (int v = 0; v < 8; ++v)
     for (int a = 0; a < 3; ++a) {
-      const double difference = (msm::trilinear_volume(moved(x, v, a, volume_step)) -
-                                 msm::trilinear_volume(moved(x, v, a, -volume_step))) /
+      const double difference = (msm::volume_of(moved(x, v, a, volume_step)) -
+                                 msm::volume_of(moved(x, v, a, -volume_step))) /
                                 (2 * volume_step);
       CHECK(gradient[static_cast<std::size_t>(v)][a] == Approx(difference).margin(1e-11)); // see volume_step
     }
@@ -158,11 +158,11 @@ TEST_CASE("the gradient of a cell's volume is its derivative") {
 
 TEST_CASE("the second derivative of a cell's volume is its gradient's derivative") {
   const msm::CellPositions x = distorted_cell();
-  const auto second = msm::trilinear_volume_second_derivative(x);
+  const auto second = msm::volume_second_derivative(x);
   for (int b = 0; b < 8; ++b)
     for (int j = 0; j < 3; ++j) {
-      const auto after = msm::trilinear_volume_gradient(moved(x, b, j, volume_step)),
-                 before = msm::trilinear_volume_gradient(moved(x, b, j, -volume_step));
+      const auto after = msm::volume_gradient(moved(x, b, j, volume_step)),
+                 before = msm::volume_gradient(moved(x, b, j, -volume_step));
       for (std::size_t a = 0; a < 8; ++a) {
         const Vector3d difference = (after[a] - before[a]) / (2 * volume_step);
         CHECK((second[a][static_cast<std::size_t>(b)].col(j) - difference).norm() < 1e-11); // see volume_step
@@ -191,6 +191,27 @@ TetrahedronPositions deformed() {
 const msm::Tetrahedron springs = msm::make_tetrahedron({0, 1, 2, 3}, slanted, soft_lambda, soft_mu);
 
 } // namespace
+
+TEST_CASE("the derivatives of a tetrahedron's volume are what differences give", "[verification]") {
+  const auto at = [](int v, int a, double by) {
+    TetrahedronPositions x = slanted;
+    x[static_cast<std::size_t>(v)][a] += by;
+    return x;
+  };
+  const auto gradient = msm::volume_gradient(slanted);
+  const auto second = msm::volume_second_derivative(slanted);
+  for (int b = 0; b < 4; ++b)
+    for (int j = 0; j < 3; ++j) {
+      const auto after = at(b, j, volume_step), before = at(b, j, -volume_step);
+      CHECK(gradient[static_cast<std::size_t>(b)][j] ==
+            Approx((msm::volume_of(after) - msm::volume_of(before)) / (2 * volume_step)).margin(1e-11));
+      for (std::size_t a = 0; a < 4; ++a) {
+        const Vector3d difference =
+            (msm::volume_gradient(after)[a] - msm::volume_gradient(before)[a]) / (2 * volume_step);
+        CHECK((second[a][static_cast<std::size_t>(b)].col(j) - difference).norm() < 1e-11); // see volume_step
+      }
+    }
+}
 
 TEST_CASE("biquadratic springs store what a linear St. Venant-Kirchhoff tetrahedron stores",
           "[verification]") {
@@ -222,7 +243,7 @@ TEST_CASE("the tensions of a tetrahedron's edges add up to its forces", "[verifi
 TEST_CASE("the stiffness of biquadratic springs depends neither on the order of vertices nor on its sign",
           "[verification]") {
   const TetrahedronPositions turned{slanted[1], slanted[0], slanted[2], slanted[3]}; // inside out
-  CHECK(msm::tetrahedron_volume(turned) == Approx(-msm::tetrahedron_volume(slanted)).epsilon(1e-14));
+  CHECK(msm::volume_of(turned) == Approx(-msm::volume_of(slanted)).epsilon(1e-14));
   // Edges (0,1), (0,2), (0,3), (1,2), (1,3), (2,3) become (1,0), (1,2), (1,3), (0,2), (0,3), (2,3).
   const std::array<int, 6> now{0, 3, 4, 1, 2, 5};
   const msm::EdgeMatrix other = msm::biquadratic_stiffness(turned, soft_lambda, soft_mu);

@@ -23,7 +23,7 @@ msm::BodyTerms cut(const cases::Grid& grid, std::vector<msm::CellTerms> kinds) {
 } // namespace
 
 TEST_CASE("springs that are whole at the boundary are all of the stiffness that they have inside") {
-  const cases::HexMesh mesh =
+  const cases::Mesh mesh =
       GENERATE(cases::make_box_mesh({3, 2, 2}, {{3, 2, 2}}), cases::make_grid_mesh(bodies::masked_grid()));
   const double k = 0.045;
   msm::BodyTerms terms{{msm::terms_of(msm::uniform_springs(k))}, {}, msm::Boundary::whole};
@@ -44,7 +44,7 @@ TEST_CASE("springs that are whole at the boundary are all of the stiffness that 
 TEST_CASE("cells cut in mirror images agree on one diagonal of every face that they share") {
   cases::Grid grid;
   grid.cells = {3, 3, 2};
-  const cases::HexMesh mesh = cases::make_grid_mesh(grid);
+  const cases::Mesh mesh = cases::make_grid_mesh(grid);
   const msm::Lattice lattice =
       msm::make_lattice(mesh, cut(grid, msm::van_gelder(cases::cell_vertices(mesh, 0), 0.3)));
   const std::size_t edges = 3 * 4 * 3 + 4 * 3 * 3 + 4 * 4 * 2, faces = 3 * 3 * 3 + 3 * 4 * 2 + 4 * 3 * 2;

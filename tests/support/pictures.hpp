@@ -110,7 +110,7 @@ inline std::string project(const std::string& list, const std::string& voxels) {
 }
 
 inline void check_is_picture(const std::string& path) {
-  const HexMesh mesh = make_label_mesh(bone_and_fat(1, path));
+  const Mesh mesh = make_label_mesh(bone_and_fat(1, path));
   REQUIRE(mesh.grid);
   CHECK(mesh.grid->cells == std::array<int, 3>{9, 6, 6}); // the last three of 12 along x are empty
   CHECK(mesh.cells.size() == 9 * 6 * 6);

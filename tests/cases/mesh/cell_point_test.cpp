@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 using Cells = std::vector<std::size_t>;
 
 TEST_CASE("a point is found in its cell, on a face in both, at a vertex in all, outside in none") {
-  const HexMesh mesh = make_box_mesh({2, 2, 2}, {2, 2, 2});
+  const Mesh mesh = make_box_mesh({2, 2, 2}, {2, 2, 2});
   CHECK(cells_at(mesh, {0.5, 0.5, 0.5}) == Cells{0});
   CHECK(cells_at(mesh, {1.2, 0.3, 1.9}) == Cells{5});
   CHECK(cells_at(mesh, {1, 0.3, 1.9}) == Cells{4, 5});
@@ -22,8 +22,8 @@ TEST_CASE("a point is found in its cell, on a face in both, at a vertex in all, 
 }
 
 TEST_CASE("a box whose cells follow from numbers and the same mesh, stored, have the same cells at a point") {
-  const HexMesh box = make_box_mesh({3, 5, 2}, {4, 5, 3});
-  HexMesh stored = box;
+  const Mesh box = make_box_mesh({3, 5, 2}, {4, 5, 3});
+  Mesh stored = box;
   stored.nodes.stored();
   REQUIRE(box.nodes.rule);
   REQUIRE_FALSE(stored.nodes.rule);
@@ -37,7 +37,7 @@ TEST_CASE("a box whose cells follow from numbers and the same mesh, stored, have
 }
 
 TEST_CASE("every point of distorted cells is in the cell that its map takes it to", "[verification]") {
-  HexMesh mesh = make_box_mesh({3, 3, 3}, {3, 3, 3});
+  Mesh mesh = make_box_mesh({3, 3, 3}, {3, 3, 3});
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     const auto k = static_cast<double>(n);
     mesh.nodes.stored()[n] += 0.2 * Vector3d(std::sin(12.9 * k), std::sin(78.2 * k), std::sin(37.7 * k));

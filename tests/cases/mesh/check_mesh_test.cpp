@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 namespace {
 
 /// Cubes of one edge from a corner on, whose nodes are those that are there before.
-void add_box(HexMesh& mesh, const Vector3d& corner, double edge, const std::array<int, 3>& n = {1, 1, 1}) {
-  const HexMesh box = make_box_mesh(edge * Vector3d(n[0], n[1], n[2]), n);
+void add_box(Mesh& mesh, const Vector3d& corner, double edge, const std::array<int, 3>& n = {1, 1, 1}) {
+  const Mesh box = make_box_mesh(edge * Vector3d(n[0], n[1], n[2]), n);
   std::vector<int> numbers;
   for (const Vector3d& node : box.nodes) {
     const Vector3d at = corner + node;
@@ -28,14 +28,14 @@ void add_box(HexMesh& mesh, const Vector3d& corner, double edge, const std::arra
     numbers.push_back(static_cast<int>(found - nodes.begin()));
     if (found == nodes.end()) nodes.push_back(at);
   }
-  for (std::array<int, 8> cell : box.cells) {
+  for (CellNodes cell : box.cells) {
     for (int& node : cell) node = numbers[index(node)];
     mesh.cells.stored().push_back(cell);
   }
 }
 
 /// Why a mesh is refused, its nodes and elements numbered from 1; empty: it is sound.
-std::string reason(const HexMesh& mesh) {
+std::string reason(const Mesh& mesh) {
   MeshNumbers numbers{std::vector<std::size_t>(mesh.nodes.size()),
                       std::vector<std::size_t>(mesh.cells.size())};
   std::iota(numbers.of_nodes.begin(), numbers.of_nodes.end(), 1);
@@ -49,7 +49,7 @@ std::string reason(const HexMesh& mesh) {
 }
 
 /// Gives cells' nodes of a plane, from y = 1 on, copies that other cells do not have.
-void unmerge(HexMesh& mesh, const std::vector<std::size_t>& cells, double x,
+void unmerge(Mesh& mesh, const std::vector<std::size_t>& cells, double x,
              const Vector3d& shift = {0, 0, 0}) {
   std::map<int, int> copies;
   for (const std::size_t cell : cells)
@@ -66,7 +66,7 @@ void unmerge(HexMesh& mesh, const std::vector<std::size_t>& cells, double x,
 
 TEST_CASE("a cell beside four of half its edge is refused by its face and a node that hangs there") {
   for (const double scale : {1., 1e-3, 1e3}) {
-    HexMesh mesh;
+    Mesh mesh;
     add_box(mesh, {0, 0, 0}, 2);
     add_box(mesh, {2, 0, 0}, 1, {2, 2, 2});
     for (Vector3d& node : mesh.nodes.stored()) node *= scale;
@@ -74,14 +74,14 @@ TEST_CASE("a cell beside four of half its edge is refused by its face and a node
                Contains(" lies on the face of nodes 2 4 8 6 of element 1, and is no vertex of it (5 nodes "
                         "are like that)"));
   }
-  HexMesh three; // nodes at thirds, on an edge and in the face
+  Mesh three; // nodes at thirds, on an edge and in the face
   add_box(three, {0, 0, 0}, 3);
   add_box(three, {3, 0, 0}, 1, {1, 3, 3});
   CHECK_THAT(reason(three), Contains("element 1") && Contains("(12 nodes are like that)"));
 }
 
 TEST_CASE("coordinates of single precision hide no hanging node, and a warped face none on it") {
-  HexMesh mesh;
+  Mesh mesh;
   add_box(mesh, {0, 0, 0}, 2);
   add_box(mesh, {2, 0, 0}, 1, {2, 2, 2});
   for (Vector3d& node : mesh.nodes.stored()) {
@@ -93,20 +93,20 @@ TEST_CASE("coordinates of single precision hide no hanging node, and a warped fa
 
 TEST_CASE(
     "a cell that is there twice, three at a face, and two on one side of it are refused by their numbers") {
-  HexMesh mesh;
+  Mesh mesh;
   add_box(mesh, {0, 0, 0}, 1, {3, 2, 2});
   REQUIRE(reason(mesh).empty());
-  HexMesh twice = mesh;
+  Mesh twice = mesh;
   twice.cells.stored().push_back(mesh.cells[4]);
   CHECK_THAT(reason(twice), Contains("elements 5 and 13 are one hexahedron"));
-  std::array<int, 8> turned = mesh.cells[4]; // the same cell, turned about z
+  CellNodes turned = mesh.cells[4]; // the same cell, turned about z
   for (std::size_t v = 0; v < 8; ++v)
     turned[v] = mesh.cells[4][std::array<std::size_t, 8>{1, 3, 0, 2, 5, 7, 4, 6}[v]];
   twice.cells.stored().back() = turned;
   CHECK_THAT(reason(twice), Contains("elements 5 and 13 are one hexahedron"));
 
-  HexMesh other = mesh; // a cell on the first cell's face x+, with its own nodes beyond it
-  std::array<int, 8> beyond = mesh.cells[1];
+  Mesh other = mesh; // a cell on the first cell's face x+, with its own nodes beyond it
+  CellNodes beyond = mesh.cells[1];
   for (const std::size_t v : {1u, 3u, 5u, 7u}) {
     other.nodes.stored().push_back(mesh.nodes[index(beyond[v])] + Vector3d(0.3, 0.1, 0.1));
     beyond[v] = static_cast<int>(other.nodes.size()) - 1;
@@ -114,9 +114,9 @@ TEST_CASE(
   other.cells.stored().push_back(beyond);
   CHECK_THAT(reason(other), Contains("belongs to elements 1, 2, 13, must belong to one or two"));
 
-  HexMesh pair;
+  Mesh pair;
   add_box(pair, {0, 0, 0}, 1);
-  std::array<int, 8> inside = pair.cells[0]; // shares the face x- alone
+  CellNodes inside = pair.cells[0]; // shares the face x- alone
   for (const std::size_t v : {1u, 3u, 5u, 7u}) {
     pair.nodes.stored().push_back(pair.nodes[index(inside[v])] - Vector3d(0.5, 0, 0));
     inside[v] = static_cast<int>(pair.nodes.size()) - 1;
@@ -127,18 +127,18 @@ TEST_CASE(
 }
 
 TEST_CASE("nodes that were not merged are refused, and a slit that is open is not") {
-  HexMesh mesh;
+  Mesh mesh;
   add_box(mesh, {0, 0, 0}, 1, {2, 2, 1});
-  HexMesh closed = mesh;
+  Mesh closed = mesh;
   unmerge(closed, {1, 3}, 1);
   CHECK_THAT(reason(closed), Contains("in the place of node"));
-  HexMesh open = mesh;
+  Mesh open = mesh;
   unmerge(open, {1, 3}, 1, {0.02, 0, 0});
   CHECK(reason(open).empty());
 }
 
 TEST_CASE("cells that run into each other away from their common nodes are refused") {
-  HexMesh mesh; // a ring of cells whose end has come into its beginning
+  Mesh mesh; // a ring of cells whose end has come into its beginning
   add_box(mesh, {0, 0, 0}, 1, {4, 1, 1});
   add_box(mesh, {3, 1, 0}, 1);
   add_box(mesh, {3, 2, 0}, 1);
@@ -146,7 +146,7 @@ TEST_CASE("cells that run into each other away from their common nodes are refus
   REQUIRE(reason(mesh).empty());
   add_box(mesh, {1.2, 1.4, 0}, 0.5); // shares no node
   CHECK_THAT(reason(mesh), Contains("2 pieces that share no node"));
-  std::array<int, 8>& last = mesh.cells.stored()[6]; // {2, 2, 0}: its lower left edge goes into cell 3
+  CellNodes& last = mesh.cells.stored()[6]; // {2, 2, 0}: its lower left edge goes into cell 3
   for (const std::size_t v : {0u, 4u}) mesh.nodes.stored()[index(last[v])] += Vector3d(0.4, -1.6, 0);
   mesh.cells.stored().pop_back();
   mesh.nodes.stored().resize(mesh.nodes.size() - 8);
@@ -154,14 +154,14 @@ TEST_CASE("cells that run into each other away from their common nodes are refus
 }
 
 TEST_CASE("thin layers, graded, skewed and large meshes are sound") {
-  HexMesh layers;
+  Mesh layers;
   add_box(layers, {0, 0, 0}, 1, {4, 4, 4});
   for (Vector3d& node : layers.nodes.stored()) {
     node.z() = node.z() == 0 ? 0 : std::pow(1e-3, 4 - node.z()); // heights from 1e-9 to 1 mm
     node.x() += 0.7 * node.y();
   }
   CHECK(reason(layers).empty());
-  HexMesh large = make_box_mesh({50, 50, 50}, {50, 50, 50});
+  Mesh large = make_box_mesh({50, 50, 50}, {50, 50, 50});
   large.grid.reset();
   CHECK(reason(large).empty());
 }

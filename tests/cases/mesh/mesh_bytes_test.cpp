@@ -11,8 +11,8 @@ using namespace cases;
 
 namespace {
 
-HexMesh bar() {
-  HexMesh mesh = make_box_mesh({2, 1, 1}, {2, 1, 1});
+Mesh bar() {
+  Mesh mesh = make_box_mesh({2, 1, 1}, {2, 1, 1});
   mesh.groups["end"] = {{0, 3, 6, 9}, {{0, 3}}, {{0, 6, 9, 3}}};
   mesh.group_of_cell = {"left", "right"};
   return mesh;
@@ -27,7 +27,7 @@ std::string bytes_with_length(std::uint64_t length) {
 } // namespace
 
 TEST_CASE("a mesh comes back from its bytes with its grid") {
-  const HexMesh before = bar(), after = mesh_from(bytes_of_mesh(before));
+  const Mesh before = bar(), after = mesh_from(bytes_of_mesh(before));
   CHECK(after.nodes.to_vector() == before.nodes.to_vector());
   CHECK(after.cells.to_vector() == before.cells.to_vector());
   CHECK(after.groups.at("end").faces == before.groups.at("end").faces);
@@ -54,7 +54,7 @@ TEST_CASE("bytes with any one bit flipped are refused, or hold a mesh whose node
       std::string damaged = whole;
       damaged[at] = static_cast<char>(damaged[at] ^ (1 << bit));
       try {
-        const HexMesh mesh = mesh_from(damaged);
+        const Mesh mesh = mesh_from(damaged);
         CAPTURE(at, bit);
         for (const auto& cell : mesh.cells)
           for (const int node : cell) REQUIRE(index(node) < mesh.nodes.size());

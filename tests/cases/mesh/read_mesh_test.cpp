@@ -20,12 +20,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-HexMesh read_text_as_mesh(const std::string& name, const std::string& text) {
+Mesh read_text_as_mesh(const std::string& name, const std::string& text) {
   const TemporaryFolder folder;
   return read_mesh({folder.write(name, text), {"case.toml", 6, 8, "body.file"}});
 }
 
-HexMesh read_thesis_mesh(const std::string& name) {
+Mesh read_thesis_mesh(const std::string& name) {
   return read_mesh({std::string(SPRINGPROOF_SOURCE_DIR) + "/cases/thesis/geo/" + name, {}});
 }
 
@@ -63,7 +63,7 @@ std::vector<T> operator+(std::vector<T> a, const std::vector<T>& b) {
 }
 
 /// The nodes of one mesh as numbers of the other's, found by where they lie; every node has its own partner.
-std::vector<int> matching_nodes(const HexMesh& mesh, const HexMesh& other) {
+std::vector<int> matching_nodes(const Mesh& mesh, const Mesh& other) {
   std::vector<int> partner;
   for (const auto& node : mesh.nodes) {
     int found = -1;
@@ -76,7 +76,7 @@ std::vector<int> matching_nodes(const HexMesh& mesh, const HexMesh& other) {
 }
 
 /// Same nodes, same cells, whatever their order.
-void check_same_mesh(const HexMesh& mesh, const HexMesh& box) {
+void check_same_mesh(const Mesh& mesh, const Mesh& box) {
   REQUIRE(mesh.nodes.size() == box.nodes.size());
   REQUIRE(mesh.cells.size() == box.cells.size());
   const std::vector<int> partner = matching_nodes(mesh, box);
@@ -92,7 +92,7 @@ void check_same_mesh(const HexMesh& mesh, const HexMesh& box) {
   CHECK(cells == box_cells);
 }
 
-void check_same_selection(const HexMesh& mesh, const std::string& group, const HexMesh& box,
+void check_same_selection(const Mesh& mesh, const std::string& group, const Mesh& box,
                           const std::string& faces) {
   INFO(group);
   const std::vector<int> partner = matching_nodes(mesh, box);
@@ -108,11 +108,11 @@ void check_same_selection(const HexMesh& mesh, const std::string& group, const H
   CHECK(edges == expected_edges);
   CHECK(edges.size() == selected.edges.size());
   // A face may begin at any of its vertices, but goes around them in the same sense.
-  const auto canonical = [](std::array<int, 4> face) {
+  const auto canonical = [](FaceNodes face) {
     std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
     return face;
   };
-  std::set<std::array<int, 4>> around, expected_around;
+  std::set<FaceNodes> around, expected_around;
   for (const auto& f : selected.faces)
     around.insert(canonical({to_box(f[0]), to_box(f[1]), to_box(f[2]), to_box(f[3])}));
   for (const auto& f : expected.faces) expected_around.insert(canonical(f));
@@ -129,7 +129,7 @@ void check_refused(const std::string& name, const std::string& text, const std::
 } // namespace
 
 TEST_CASE("the vertices of a hexahedron of gmsh are put where ours belong") {
-  const HexMesh mesh = read_text_as_mesh("one.msh", msh(gmsh_cube, 5, {{1, 2, 3, 4, 5, 6, 7, 8}}));
+  const Mesh mesh = read_text_as_mesh("one.msh", msh(gmsh_cube, 5, {{1, 2, 3, 4, 5, 6, 7, 8}}));
   REQUIRE(mesh.cells.size() == 1);
   for (int v = 0; v < 8; ++v) {
     const int node = mesh.cells[0][static_cast<std::size_t>(v)];
@@ -140,8 +140,8 @@ TEST_CASE("the vertices of a hexahedron of gmsh are put where ours belong") {
 }
 
 TEST_CASE("the thesis's cube, drawn and extruded, is the box of the same cells", "[verification]") {
-  const HexMesh mesh = read_thesis_mesh("cube.geo");
-  const HexMesh box = make_box_mesh({10, 10, 10}, {10, 10, 10});
+  const Mesh mesh = read_thesis_mesh("cube.geo");
+  const Mesh box = make_box_mesh({10, 10, 10}, {10, 10, 10});
   check_same_mesh(mesh, box);
   check_same_selection(mesh, "bottom", box, "z-");
   check_same_selection(mesh, "top", box, "z+");
@@ -155,8 +155,8 @@ TEST_CASE("the thesis's cube, drawn and extruded, is the box of the same cells",
 
 TEST_CASE("the thesis's bar, drawn and divided by transfinite interpolation, is the box of the same cells",
           "[verification]") {
-  const HexMesh mesh = read_thesis_mesh("bar.geo");
-  const HexMesh box = make_box_mesh({4, 4, 16}, {4, 4, 16});
+  const Mesh mesh = read_thesis_mesh("bar.geo");
+  const Mesh box = make_box_mesh({4, 4, 16}, {4, 4, 16});
   check_same_mesh(mesh, box);
   REQUIRE(mesh.grid.has_value());
   CHECK(mesh.grid->cells == std::array<int, 3>{4, 4, 16});
@@ -188,7 +188,7 @@ TEST_CASE("a case on a drawn mesh has the loads of the case on the box", "[verif
 
 TEST_CASE(
     "groups of one name in several dimensions are one region, and a group without a name has its number") {
-  const HexMesh mesh = read_text_as_mesh("a.geo", R"(
+  const Mesh mesh = read_text_as_mesh("a.geo", R"(
 Point(1) = {0, 0, 0};
 x[] = Extrude {1, 0, 0} { Point{1}; Layers{2}; };
 y[] = Extrude {0, 1, 0} { Line{x[1]}; Layers{1}; Recombine; };
@@ -212,7 +212,7 @@ Physical Point("elsewhere") = {99};
 // groups (a group named "z+" wins), materials' groups (cells alone), and patches (a name of their own).
 TEST_CASE(
     "a name of a volume and a surface, or of a curve beside a surface, is no region until its kind is told") {
-  const HexMesh mesh = read_text_as_mesh("a.geo", R"(
+  const Mesh mesh = read_text_as_mesh("a.geo", R"(
 Point(1) = {0, 0, 0};
 x[] = Extrude {1, 0, 0} { Point{1}; Layers{2}; };
 y[] = Extrude {0, 1, 0} { Line{x[1]}; Layers{1}; Recombine; };

@@ -9,7 +9,7 @@ using namespace cases;
 TEST_CASE("every node and every cell is one rank's, and a rank has the vertices of its cells") {
   Grid holes{{5, 4, 7}, {1, 1, 1}, {0, 0, 0}, {}};
   for (std::size_t c = 0; c < holes.n_lattice_cells(); ++c) holes.present.push_back(c % 5 != 2);
-  for (const HexMesh& mesh : {make_box_mesh({5, 4, 7}, {5, 4, 7}), make_grid_mesh(holes),
+  for (const Mesh& mesh : {make_box_mesh({5, 4, 7}, {5, 4, 7}), make_grid_mesh(holes),
                               refine(make_box_mesh({1, 2, 3}, {1, 2, 3}))})
     for (const int n_ranks : {1, 2, 3, 8, 500}) { // there are fewer cells than 500
       Range last_nodes, last_cells;
@@ -29,7 +29,7 @@ TEST_CASE("every node and every cell is one rank's, and a rank has the vertices 
 }
 
 TEST_CASE("a rank's share of a box is a slab with a plane of its neighbours'") {
-  const HexMesh mesh = make_box_mesh({20, 20, 40}, {20, 20, 40});
+  const Mesh mesh = make_box_mesh({20, 20, 40}, {20, 20, 40});
   for (int rank = 0; rank < 4; ++rank) {
     const Share share = share_of(mesh, rank, 4);
     CHECK(share.nodes.size() <= share.own_nodes.size() + 21 * 21 + 2 * 22); // and where rows begin and end

@@ -21,7 +21,7 @@ std::string facet(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 
 /// The facets of a cuboid, seen from outside anticlockwise.
 std::string cuboid(const Vector3d& lower, const Vector3d& upper) {
-  const HexMesh box = make_box_mesh(upper - lower, {1, 1, 1});
+  const Mesh box = make_box_mesh(upper - lower, {1, 1, 1});
   std::string text;
   for (const auto& face : boundary_faces(box)) {
     const auto corner = [&](std::size_t v) -> Vector3d {
@@ -49,7 +49,7 @@ std::string ball() {
   return text;
 }
 
-HexMesh voxels(const std::string& facets, double edge) {
+Mesh voxels(const std::string& facets, double edge) {
   const TemporaryFolder folder;
   return make_voxel_mesh({{folder.write("body.stl", "solid\n" + facets + "endsolid\n")}, edge});
 }
@@ -57,7 +57,7 @@ HexMesh voxels(const std::string& facets, double edge) {
 } // namespace
 
 TEST_CASE("a cuboid becomes the box that it is, wherever it lies") {
-  const HexMesh mesh = voxels(cuboid({-1, 2, 0.5}, {1, 3, 2}), 0.25);
+  const Mesh mesh = voxels(cuboid({-1, 2, 0.5}, {1, 3, 2}), 0.25);
   REQUIRE(mesh.grid);
   CHECK(mesh.grid->cells == std::array<int, 3>{8, 4, 6});
   CHECK(mesh.cells.size() == 8 * 4 * 6);
@@ -66,13 +66,13 @@ TEST_CASE("a cuboid becomes the box that it is, wherever it lies") {
 }
 
 TEST_CASE("a cuboid far from the origin has no layer of cells more for the rounding of its coordinates") {
-  const HexMesh mesh = voxels(cuboid({-1.1, 2.3, 100.7}, {-0.5, 2.6, 101.6}), 0.3);
+  const Mesh mesh = voxels(cuboid({-1.1, 2.3, 100.7}, {-0.5, 2.6, 101.6}), 0.3);
   CHECK(mesh.grid->cells == std::array<int, 3>{2, 1, 3});
   CHECK(mesh.cells.size() == 2 * 1 * 3);
 }
 
 TEST_CASE("a ball of cubes has nearly its volume, and is as symmetric") {
-  const HexMesh mesh = voxels(ball(), 0.1);
+  const Mesh mesh = voxels(ball(), 0.1);
   const double volume = 1e-3 * static_cast<double>(mesh.cells.size());
   // The polyhedron has 4.146. Some 1250 cubes on its surface are in or out as at random, but 48 at a time, by
   // symmetry: three standard deviations of 48 * sqrt(1250/48/12).
@@ -86,7 +86,7 @@ TEST_CASE("a hollow stays empty, and overlapping parts are filled once") {
   const std::string inner = cuboid({1, 1, 1}, {2, 2, 2});
   // A cavity is seen from inside it: its facets are the other way round.
   std::string hollow = cuboid({0, 0, 0}, {3, 3, 3});
-  const HexMesh box = make_box_mesh({1, 1, 1}, {1, 1, 1});
+  const Mesh box = make_box_mesh({1, 1, 1}, {1, 1, 1});
   for (const auto& face : boundary_faces(box)) {
     const auto corner = [&](std::size_t v) -> Vector3d {
       return Vector3d::Ones() + box.nodes[static_cast<std::size_t>(face[v])];

@@ -19,7 +19,7 @@ Case cubes(const std::array<int, 3>& cells) {
 }
 
 /// Points in and beside the cells of a body, whose weights add up to 1.
-std::vector<WeightedPoint> points_of(const HexMesh& mesh, double farthest_beyond) {
+std::vector<WeightedPoint> points_of(const Mesh& mesh, double farthest_beyond) {
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> in_cell(0, 1), beside(-farthest_beyond, farthest_beyond);
   std::vector<WeightedPoint> points;

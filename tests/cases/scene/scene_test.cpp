@@ -38,8 +38,8 @@ Vector3d moment(const Scene& scene, const std::vector<Vector3d>& forces, const V
 TEST_CASE("regions of a box, found from numbers, are those that a search of its nodes and cells finds") {
   for (const std::array<int, 3>& cells :
        {std::array<int, 3>{3, 4, 5}, std::array<int, 3>{1, 1, 2}, std::array<int, 3>{2, 1, 1}}) {
-    const HexMesh ruled = make_box_mesh({3, 4, 0.5}, cells);
-    HexMesh stored = ruled;
+    const Mesh ruled = make_box_mesh({3, 4, 0.5}, cells);
+    Mesh stored = ruled;
     stored.nodes.stored();
     stored.cells.stored();
     for (const char* name : {"x-", "y+", "z+", "z- x+", "x+ y- z-", "y- y-"}) {
@@ -56,7 +56,7 @@ TEST_CASE("regions of a box, found from numbers, are those that a search of its 
       near.near = node + Vector3d(4e-7, -4e-7, 4e-7);
       CHECK(select_node(ruled, near) == select_node(stored, near));
       near.near = node + Vector3d(0.1, 0, -100); // refused, with the same distance
-      const auto refusal = [&](const HexMesh& mesh) -> std::string {
+      const auto refusal = [&](const Mesh& mesh) -> std::string {
         try {
           select_node(mesh, near);
         } catch (const InputError& error) {
@@ -71,7 +71,7 @@ TEST_CASE("regions of a box, found from numbers, are those that a search of its 
 }
 
 TEST_CASE("faces, edges and vertices of a box are selected with their nodes, edges and faces") {
-  const HexMesh mesh = make_box_mesh({2, 3, 4}, {2, 3, 4});
+  const Mesh mesh = make_box_mesh({2, 3, 4}, {2, 3, 4});
   const Selection face = select(mesh, {"z+"});
   CHECK(face.nodes.size() == 12);
   CHECK(face.faces.size() == 6);
@@ -86,7 +86,7 @@ TEST_CASE("faces, edges and vertices of a box are selected with their nodes, edg
 }
 
 TEST_CASE("near names a node, and does not search for one") {
-  const HexMesh mesh = make_box_mesh({2, 2, 2}, {2, 2, 2});
+  const Mesh mesh = make_box_mesh({2, 2, 2}, {2, 2, 2});
   Region point;
   point.near = Vector3d(1, 1, 2 + 0.9e-6);
   CHECK(mesh.nodes[static_cast<std::size_t>(select_node(mesh, point))] == Vector3d(1, 1, 2));
@@ -192,7 +192,7 @@ TEST_CASE("a patch has the faces of the surface around its point, and a finer me
 }
 
 TEST_CASE("a part of the body has the nodes in its box, on and beyond its plane") {
-  const HexMesh mesh = make_box_mesh({0.3, 0.3, 0.6}, {3, 3, 6});
+  const Mesh mesh = make_box_mesh({0.3, 0.3, 0.6}, {3, 3, 6});
   const double infinity = std::numeric_limits<double>::infinity();
   const auto selected = [&](const Part& part) {
     Region inside = {"part"};
@@ -210,7 +210,7 @@ TEST_CASE("a part of the body has the nodes in its box, on and beyond its plane"
 }
 
 TEST_CASE("a class of cells has the nodes of its cells, on finer meshes too") {
-  HexMesh mesh = make_box_mesh({2, 2, 4}, {2, 2, 4});
+  Mesh mesh = make_box_mesh({2, 2, 4}, {2, 2, 4});
   mesh.group_of_cell.assign(16, "fat");
   for (std::size_t c = 0; c < 8; ++c) mesh.group_of_cell[c] = "bone"; // z from 0 to 2
   Region bone = {"bone"};
@@ -277,7 +277,7 @@ TEST_CASE("a load or a motion that double precision cannot tell from none is ref
 }
 
 TEST_CASE("the area of a region is that of its faces, and nodes and edges have none") {
-  const HexMesh mesh = make_box_mesh({2, 3, 4}, {2, 3, 4});
+  const Mesh mesh = make_box_mesh({2, 3, 4}, {2, 3, 4});
   CHECK(area(mesh, select(mesh, {"z+"})) == Approx(6).epsilon(1e-14));
   CHECK(area(mesh, select(mesh, {"x-"})) == Approx(12).epsilon(1e-14));
   CHECK(area(mesh, select(mesh, {"z+ x-"})) == 0);

@@ -8,19 +8,19 @@ using namespace springproof;
 
 namespace {
 
-std::vector<int> across(const cases::HexMesh& mesh, const std::vector<std::string>& planes = {}) {
+std::vector<int> across(const cases::Mesh& mesh, const std::vector<std::string>& planes = {}) {
   std::vector<cases::Fixed> symmetry;
   for (const std::string& plane : planes) symmetry.push_back({bodies::region(plane)});
   return cases::cells_across(mesh, symmetry, 8);
 }
 
 /// The same cells in a mesh that is no grid: every second one seen from another side.
-cases::HexMesh as_hexahedra(const cases::HexMesh& grid) {
-  cases::HexMesh mesh;
+cases::Mesh as_hexahedra(const cases::Mesh& grid) {
+  cases::Mesh mesh;
   mesh.nodes = grid.nodes.to_vector();
-  std::vector<std::array<int, 8>> cells = grid.cells.to_vector();
+  std::vector<cases::CellNodes> cells = grid.cells.to_vector();
   for (std::size_t c = 0; c < cells.size(); c += 2) // x to y, y to z, z to x
-    cells[c] = cases::pick(cells[c], std::array<int, 8>{0, 2, 4, 6, 1, 3, 5, 7});
+    cells[c] = cases::pick(cells[c], cases::CellNodes{0, 2, 4, 6, 1, 3, 5, 7});
   mesh.cells = cells;
   return mesh;
 }
@@ -43,7 +43,7 @@ TEST_CASE("a fin on a block is thin, the block is not, in a grid and in a mesh o
   for (int k = 0; k < 7; ++k)
     for (int j = 0; j < 4; ++j)
       for (int i = 0; i < 4; ++i) grid.present.push_back(k < 4 || j == 1);
-  const cases::HexMesh mesh = cases::make_grid_mesh(grid);
+  const cases::Mesh mesh = cases::make_grid_mesh(grid);
   const std::vector<int> n = across(mesh);
   REQUIRE(n.size() == 4 * 4 * 4 + 3 * 4);
   for (std::size_t c = 0; c < n.size(); ++c) CHECK(n[c] == (c < 64 ? 4 : 1));

@@ -70,7 +70,7 @@ cases::Scene finely_drawn_block() {
   definition.fem.formulation = cases::Formulation::small_strain;
   std::get<cases::measures::Displacement>(definition.measures.front().kind).node.near = Vector3d(40, 20, 40);
   cases::Scene scene = cases::make_scene(definition);
-  const cases::HexMesh fine = cases::make_box_mesh({40, 40, 60}, {32, 32, 48});
+  const cases::Mesh fine = cases::make_box_mesh({40, 40, 60}, {32, 32, 48});
   scene.surface = cases::triangles_of_faces(fine, cases::boundary_faces(fine));
   scene.definition.surface.emplace();
   return scene;

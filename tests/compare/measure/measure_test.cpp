@@ -27,7 +27,7 @@ cases::Solution moved(const cases::Scene& scene, const Motion& motion) {
   for (const Vector3d& x : scene.mesh.nodes) solution.displacement.push_back(motion(x) - x);
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
     solution.cell_volume.push_back(
-        cases::cell_volume(cases::cell_vertices(scene.mesh, c, solution.displacement)));
+        cases::cell_volume(cases::cell_corners(scene.mesh, c, solution.displacement)));
   return solution;
 }
 

@@ -134,7 +134,7 @@ TEST_CASE("the share of a space in all spaces of the other matrix is one", "[ver
 namespace {
 
 Eigen::SparseMatrix<double> free_cube(int n, double scale) {
-  const cases::HexMesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(n), {{n, n, n}});
+  const cases::Mesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(n), {{n, n, n}});
   const msm::CellMatrix cell =
       scale * fem_reference::element_stiffness(msm::cube(1), {1, 0.3}, cases::Element::q1);
   return compare::assemble(mesh, cell);

@@ -17,7 +17,7 @@ constexpr double edge = 10, density = 1e-9, shear_modulus = 0.1; // mm, t/mm³, 
 /// Combines the Lamé modes of a free cube, which shear in three planes without changing volume: twice the one
 /// in the plane of x and y less those in the others. The sum of all three has another symmetry than this, and
 /// on a mesh another frequency.
-Eigen::VectorXd lame_shape(const cases::HexMesh& mesh) {
+Eigen::VectorXd lame_shape(const cases::Mesh& mesh) {
   Eigen::VectorXd shape = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(3 * mesh.nodes.size()));
   const double k = std::acos(-1.0) / edge;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
@@ -34,7 +34,7 @@ Eigen::VectorXd lame_shape(const cases::HexMesh& mesh) {
 }
 
 /// Frequency (Hz) of the mode of a free cube that the Lamé mode overlaps most.
-double lame_frequency(const cases::HexMesh& mesh, const Eigen::SparseMatrix<double>& stiffness,
+double lame_frequency(const cases::Mesh& mesh, const Eigen::SparseMatrix<double>& stiffness,
                       const Eigen::SparseMatrix<double>& mass) {
   const compare::Spectrum modes = compare::solvers().lowest_vibrations(stiffness, mass, 40);
   const Eigen::VectorXd shape = lame_shape(mesh), weighted = mass * shape;
@@ -56,7 +56,7 @@ cases::LinearElastic material(double poissons_ratio) {
 
 /// Frequency (Hz) of the Lamé mode of finite elements, n along an edge.
 double lame_frequency(int n, double poissons_ratio) {
-  const cases::HexMesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(edge), {{n, n, n}});
+  const cases::Mesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(edge), {{n, n, n}});
   const auto vertices = cases::cell_vertices(mesh, 0);
   return lame_frequency(mesh,
                         compare::assemble(mesh, fem_reference::element_stiffness(
@@ -123,7 +123,7 @@ TEST_CASE("consistent masses of springs are integrals of N_a N_b, on cells of an
     x += 0.3 * Eigen::Vector3d(std::sin(7 * x.z()), std::sin(5 * x.x()), std::sin(9 * x.y()));
   double volume = 0;
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c)
-    volume += cases::cell_volume(cases::cell_vertices(scene.mesh, c));
+    volume += cases::cell_volume(cases::cell_corners(scene.mesh, c));
   CHECK(mass_of().sum() == Approx(3 * density * volume).epsilon(1e-13));
   const cases::AddedMass weight{cases::Region{"x+"}, 1e-6}; // kg
   const Eigen::SparseMatrix<double> without = mass_of();
@@ -134,7 +134,7 @@ TEST_CASE("consistent masses of springs are integrals of N_a N_b, on cells of an
 }
 
 TEST_CASE("a free body has six vibrations of frequency 0, and modes of unit mass", "[verification]") {
-  const cases::HexMesh mesh = cases::make_box_mesh({20, 10, 10}, {{4, 2, 2}});
+  const cases::Mesh mesh = cases::make_box_mesh({20, 10, 10}, {{4, 2, 2}});
   const auto vertices = cases::cell_vertices(mesh, 0);
   const auto stiffness =
       compare::assemble(mesh, fem_reference::element_stiffness(vertices, {1, 0.3}, cases::Element::q1));

@@ -73,7 +73,7 @@ TEST_CASE(
 }
 
 TEST_CASE("the .vtu that this program writes is read back to the last bit") {
-  const cases::HexMesh mesh = cases::make_box_mesh({1, 2, 3}, {1, 2, 1});
+  const cases::Mesh mesh = cases::make_box_mesh({1, 2, 3}, {1, 2, 1});
   std::vector<Eigen::Vector3d> moved;
   for (const Eigen::Vector3d& x : mesh.nodes) moved.emplace_back(0.1 * x.y(), x.z() / 3, -1e-300);
   std::ostringstream out;
@@ -89,7 +89,7 @@ TEST_CASE("the .vtu that this program writes is read back to the last bit") {
 }
 
 TEST_CASE("a displacement that is not finite is refused with its point") {
-  const cases::HexMesh mesh = cases::make_box_mesh({1, 2, 3}, {1, 1, 1});
+  const cases::Mesh mesh = cases::make_box_mesh({1, 2, 3}, {1, 1, 1});
   std::vector<Eigen::Vector3d> moved(8, {0, 0, 1});
   moved[5].y() = std::numeric_limits<double>::quiet_NaN();
   std::ostringstream out;
@@ -104,7 +104,7 @@ TEST_CASE("a .vtu by VTK's writer as it comes, compressed and in single precisio
   const std::string path = SPRINGPROOF_SOURCE_DIR "/tests/compare/peers/single_precision.vtu";
   const auto nodes = compare::read_displacements(path);
   REQUIRE(nodes.size() == 8);
-  const cases::HexMesh mesh = cases::make_box_mesh({100.1, 100.2, 100.3}, {1, 1, 1});
+  const cases::Mesh mesh = cases::make_box_mesh({100.1, 100.2, 100.3}, {1, 1, 1});
   const auto displacement = compare::match_nodes(mesh, nodes, path);
   CHECK(nodes[7].position != mesh.nodes[7]);
   for (std::size_t n = 0; n < 8; ++n)

@@ -26,7 +26,7 @@ namespace {
 const std::string external_cases = SPRINGPROOF_SOURCE_DIR "/cases/external/";
 
 /// A node per vertex of the mesh, in another order, moved by its own position.
-std::vector<GivenDisplacement> given_for(const cases::HexMesh& mesh) {
+std::vector<GivenDisplacement> given_for(const cases::Mesh& mesh) {
   std::vector<GivenDisplacement> given;
   for (const Vector3d& x : mesh.nodes) given.push_back({x, x, "a.csv:" + std::to_string(given.size() + 2)});
   std::reverse(given.begin(), given.end());
@@ -51,7 +51,7 @@ std::vector<std::string> warnings_of(const cases::Scene& scene, std::vector<Vect
 } // namespace
 
 TEST_CASE("given nodes are found by their place, within a millionth of the body's size and no further") {
-  const cases::HexMesh mesh = cases::make_box_mesh({2, 2, 2}, {2, 2, 2});
+  const cases::Mesh mesh = cases::make_box_mesh({2, 2, 2}, {2, 2, 2});
   auto given = given_for(mesh);
   CHECK(match_nodes(mesh, given, "a.csv") == mesh.nodes.to_vector());
   for (GivenDisplacement& node : given) node.position += Vector3d(-5e-7, 5e-7, -5e-7);
@@ -63,7 +63,7 @@ TEST_CASE("given nodes are found by their place, within a millionth of the body'
 }
 
 TEST_CASE("every node is given once: one twice, one missing and one too many are refused") {
-  const cases::HexMesh mesh = cases::make_box_mesh({2, 2, 2}, {1, 1, 1});
+  const cases::Mesh mesh = cases::make_box_mesh({2, 2, 2}, {1, 1, 1});
   auto twice = given_for(mesh);
   twice.push_back(twice.front());
   CHECK_THROWS_WITH(match_nodes(mesh, twice, "a.csv"),

@@ -25,8 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The body of tests/compare/peers/write_foreign.cpp, in so many cells.
-cases::HexMesh foreign_body(const std::array<int, 3>& cells) {
-  cases::HexMesh mesh = cases::make_box_mesh({3.1, 2.2, 1.7}, cells);
+cases::Mesh foreign_body(const std::array<int, 3>& cells) {
+  cases::Mesh mesh = cases::make_box_mesh({3.1, 2.2, 1.7}, cells);
   for (Vector3d& node : mesh.nodes.stored()) node += Vector3d(0.7, -0.3, 5);
   return mesh;
 }
@@ -53,25 +53,25 @@ struct ForeignFiles {
 };
 
 /// A case whose body is that one, for results on other meshes.
-cases::Scene scene_of(const cases::HexMesh& mesh) {
+cases::Scene scene_of(const cases::Mesh& mesh) {
   cases::Scene scene;
   scene.mesh = mesh;
   return scene;
 }
 
-std::vector<Vector3d> field(const cases::HexMesh& mesh, const std::function<Vector3d(const Vector3d&)>& u) {
+std::vector<Vector3d> field(const cases::Mesh& mesh, const std::function<Vector3d(const Vector3d&)>& u) {
   std::vector<Vector3d> values;
   for (const Vector3d& node : mesh.nodes) values.push_back(u(node));
   return values;
 }
 
-double largest_error(const cases::HexMesh& mesh, const std::vector<Vector3d>& found,
+double largest_error(const cases::Mesh& mesh, const std::vector<Vector3d>& found,
                      const std::function<Vector3d(const Vector3d&)>& u) {
   return largest_difference(found, field(mesh, u), [](const Vector3d& d) { return d.norm(); });
 }
 
 /// A .vtu on a mesh of hexahedra.
-std::string vtu_on(const TemporaryFolder& folder, const cases::HexMesh& mesh,
+std::string vtu_on(const TemporaryFolder& folder, const cases::Mesh& mesh,
                    const std::function<Vector3d(const Vector3d&)>& u) {
   std::ostringstream out;
   compare::write_vtu(out, mesh, {{"displacement", field(mesh, u)}});
@@ -79,7 +79,7 @@ std::string vtu_on(const TemporaryFolder& folder, const cases::HexMesh& mesh,
 }
 
 /// The finite elements' answer to a case is known here: a field.
-compare::Answers answers_with(const cases::HexMesh& mesh, const std::function<Vector3d(const Vector3d&)>& u) {
+compare::Answers answers_with(const cases::Mesh& mesh, const std::function<Vector3d(const Vector3d&)>& u) {
   compare::Answers answers;
   cases::Solution& fem = answers.fem.solution;
   fem.status = cases::Status::converged;
@@ -103,7 +103,7 @@ TEST_CASE("whatever VTK's writers leave is read and matched with the nodes: ever
           "compressor and "
           "precision") {
   const ForeignFiles files;
-  const cases::HexMesh mesh = foreign_body({3, 2, 2});
+  const cases::Mesh mesh = foreign_body({3, 2, 2});
   std::map<std::string, int> n_of; // files by their ending
   for (const std::string& path : files.paths) {
     INFO(path);
@@ -118,7 +118,7 @@ TEST_CASE("whatever VTK's writers leave is read and matched with the nodes: ever
 }
 
 TEST_CASE("files of meshio's default writers are read") { // meshio 5.0.0, of the body and displacement above
-  const cases::HexMesh mesh = foreign_body({3, 2, 2});
+  const cases::Mesh mesh = foreign_body({3, 2, 2});
   for (const std::string file : {"meshio.vtu", "meshio.vtk"}) {
     const std::string path = SPRINGPROOF_SOURCE_DIR "/tests/compare/peers/" + file;
     const auto displacement = compare::match_nodes(mesh, compare::read_displacements(path), path);
@@ -128,7 +128,7 @@ TEST_CASE("files of meshio's default writers are read") { // meshio 5.0.0, of th
 
 TEST_CASE("a .vtk file that ends too early is refused, or has all that is asked of it") {
   const ForeignFiles files;
-  const cases::HexMesh mesh = foreign_body({3, 2, 2});
+  const cases::Mesh mesh = foreign_body({3, 2, 2});
   for (const std::string name :
        {"hexahedra_double_text_42.vtk", "hexahedra_double_binary_51.vtk", "image_float_text_51.vtk"}) {
     const std::string whole = content(files.named(name));
@@ -171,7 +171,7 @@ TEST_CASE("a VTK file that cannot be used is refused with what it has and what i
 
 TEST_CASE("nodes are matched within a millionth of the body's size, whatever its size") {
   for (const double size : {1e-3, 1., 1e4}) {
-    const cases::HexMesh mesh = cases::make_box_mesh(size * Vector3d::Ones(), {3, 3, 3});
+    const cases::Mesh mesh = cases::make_box_mesh(size * Vector3d::Ones(), {3, 3, 3});
     std::vector<compare::GivenDisplacement> given;
     for (const Vector3d& node : mesh.nodes) given.push_back({node * (1 + 3e-7), Vector3d::Zero(), "a:1"});
     CHECK_NOTHROW(compare::match_nodes(mesh, given, "a"));
@@ -186,7 +186,7 @@ TEST_CASE("results on another mesh are interpolated in their cells: linear field
   const auto linear = [](const Vector3d& x) -> Vector3d {
     return {0.1 * x.y(), 0.02 * x.x() - 0.3 * x.z(), 1 + x.x()};
   };
-  const cases::HexMesh mesh = foreign_body({5, 4, 3});
+  const cases::Mesh mesh = foreign_body({5, 4, 3});
   const TemporaryFolder folder;
   const auto found = compare::read_external(
       {{scene_of(mesh), {}}}, vtu_on(folder, foreign_body({3, 2, 2}), linear), Transfer::interpolated);
@@ -207,7 +207,7 @@ TEST_CASE("results on another mesh are interpolated in their cells: linear field
 TEST_CASE("the stated error of interpolation is at least the true one, and not four times as large",
           "[verification]") {
   const TemporaryFolder folder;
-  const cases::HexMesh mesh = foreign_body({9, 8, 7});
+  const cases::Mesh mesh = foreign_body({9, 8, 7});
   for (const int n : {3, 6, 11, 20}) { // the results' mesh: coarser and finer than the case's
     const auto external = compare::read_external(
         {{scene_of(mesh), {}}}, vtu_on(folder, foreign_body({n, n, n}), smooth), Transfer::interpolated);
@@ -228,7 +228,7 @@ TEST_CASE("the stated error of interpolation is at least the true one, and not f
 
 TEST_CASE("results on the case's own nodes are interpolated without any error") {
   const TemporaryFolder folder;
-  const cases::HexMesh mesh = foreign_body({3, 2, 2});
+  const cases::Mesh mesh = foreign_body({3, 2, 2});
   const auto external =
       compare::read_external({{scene_of(mesh), {}}}, vtu_on(folder, mesh, smooth), Transfer::interpolated);
   CHECK(largest_error(mesh, external->displacement, smooth) <= 1e-14);
@@ -266,7 +266,7 @@ TEST_CASE("in curved quadratic cells, and on their nodes, a linear displacement 
                         points + "CELLS 1 28\n27" + numbers +
                         "\nCELL_TYPES 1\n29\nPOINT_DATA 27\nVECTORS displacement double\n" + values);
   for (const int n : {2, 5}) { // the cell's own nodes, and others
-    cases::HexMesh mesh = cases::make_box_mesh({1, 1, 1}, {n, n, n});
+    cases::Mesh mesh = cases::make_box_mesh({1, 1, 1}, {n, n, n});
     for (Vector3d& node : mesh.nodes.stored()) node = curved(node);
     mesh.grid.reset();
     const auto found = compare::read_external({{scene_of(mesh), {}}}, path, Transfer::interpolated);
@@ -275,9 +275,9 @@ TEST_CASE("in curved quadratic cells, and on their nodes, a linear displacement 
 }
 
 TEST_CASE("an image that is turned by its direction is where it is") {
-  const cases::HexMesh rest = cases::make_box_mesh({3, 2, 2}, {3, 2, 2});
+  const cases::Mesh rest = cases::make_box_mesh({3, 2, 2}, {3, 2, 2});
   const auto turned = [](const Vector3d& x) -> Vector3d { return {-x.y(), x.x(), x.z()}; };
-  cases::HexMesh mesh = rest;
+  cases::Mesh mesh = rest;
   std::string values;
   for (Vector3d& node : mesh.nodes.stored()) {
     node = turned(node);
@@ -299,8 +299,8 @@ TEST_CASE("an image that is turned by its direction is where it is") {
 TEST_CASE("nodes a little outside of the results' cells take the closest value, and are counted, far ones "
           "are refused") {
   const TemporaryFolder folder;
-  const cases::HexMesh other = foreign_body({4, 4, 4});
-  cases::HexMesh mesh = foreign_body({4, 4, 4});
+  const cases::Mesh other = foreign_body({4, 4, 4});
+  cases::Mesh mesh = foreign_body({4, 4, 4});
   for (Vector3d& node : mesh.nodes.stored()) node.x() += 0.1;
   const std::string path = vtu_on(folder, other, [](const Vector3d& x) -> Vector3d { return {x.x(), 0, 0}; });
   const auto external = compare::read_external({{scene_of(mesh), {}}}, path, Transfer::interpolated);
@@ -317,7 +317,7 @@ TEST_CASE("nodes a little outside of the results' cells take the closest value, 
 
 TEST_CASE("results that nothing interpolates between are refused with the reason") {
   const ForeignFiles files;
-  const cases::HexMesh mesh = foreign_body({5, 4, 3});
+  const cases::Mesh mesh = foreign_body({5, 4, 3});
   const auto read = [&](const std::string& path) {
     return compare::read_external({{scene_of(mesh), {}}}, path, Transfer::interpolated);
   };
@@ -335,7 +335,7 @@ TEST_CASE("the output states what interpolation may add, and a gate must hold fo
   const auto pulled = [](const Vector3d& x) -> Vector3d {
     return {0.01 * x.x() * x.x(), -0.01 * x.y() * x.x(), 0};
   };
-  const cases::HexMesh body = cases::make_scene(definition).mesh;
+  const cases::Mesh body = cases::make_scene(definition).mesh;
   Eigen::AlignedBox3d box;
   for (const Vector3d& node : body.nodes) box.extend(node);
   const std::string path = vtu_on(folder, cases::make_box_mesh(box.sizes(), {3, 3, 3}), pulled);

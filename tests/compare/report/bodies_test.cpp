@@ -10,14 +10,14 @@ using Points = std::vector<Eigen::Vector3d>;
 
 namespace {
 
-Points moved(const cases::HexMesh& mesh, const Eigen::Vector3d& by) {
+Points moved(const cases::Mesh& mesh, const Eigen::Vector3d& by) {
   return Points(mesh.nodes.size(), by);
 }
 
 } // namespace
 
 TEST_CASE("a view has the body's surface alone, and whole numbers of units that leave five digits") {
-  const cases::HexMesh mesh = cases::make_box_mesh({2, 2, 2}, {{2, 2, 2}}); // 27 nodes, one of them inside
+  const cases::Mesh mesh = cases::make_box_mesh({2, 2, 2}, {{2, 2, 2}}); // 27 nodes, one of them inside
   const Points fem = moved(mesh, {0.25, 0, -0.000004}), springs = moved(mesh, {0, 0.5, 0.000006});
   const auto json = views_to_json({{"cube", {"", {&mesh, &fem}, {&mesh, &springs}}}});
   REQUIRE(json["bodies"].size() == 1);                 // both sides share it
@@ -36,8 +36,8 @@ TEST_CASE("a view has the body's surface alone, and whole numbers of units that 
 }
 
 TEST_CASE("bodies of unlike meshes are told apart in one view") {
-  const cases::HexMesh coarse = cases::make_box_mesh({1, 1, 4}, {{1, 1, 4}});
-  const cases::HexMesh fine = cases::make_box_mesh({1, 1, 4}, {{2, 2, 8}});
+  const cases::Mesh coarse = cases::make_box_mesh({1, 1, 4}, {{1, 1, 4}});
+  const cases::Mesh fine = cases::make_box_mesh({1, 1, 4}, {{2, 2, 8}});
   const Points on_fine = moved(fine, {1, 0, 0}), on_coarse = moved(coarse, {1, 0, 0});
   const auto json = views_to_json({{"bar", {"", {&fine, &on_fine}, {&coarse, &on_coarse}}}});
   REQUIRE(json["bodies"].size() == 2);
@@ -45,7 +45,7 @@ TEST_CASE("bodies of unlike meshes are told apart in one view") {
 }
 
 TEST_CASE("a side that has no equilibrium is left out of its view") {
-  const cases::HexMesh mesh = cases::make_box_mesh({1, 1, 1}, {{1, 1, 1}});
+  const cases::Mesh mesh = cases::make_box_mesh({1, 1, 1}, {{1, 1, 1}});
   const Points fem = moved(mesh, {0.1, 0, 0}), none;
   const auto json = views_to_json({{"cube", {"", {&mesh, &fem}, {&mesh, &none}}}});
   CHECK(json["views"][0].contains("fem"));
@@ -53,7 +53,7 @@ TEST_CASE("a side that has no equilibrium is left out of its view") {
 }
 
 TEST_CASE("small displacements may be drawn up to a hundredfold, large ones twofold") {
-  const cases::HexMesh mesh = cases::make_box_mesh({10, 10, 10}, {{1, 1, 1}});
+  const cases::Mesh mesh = cases::make_box_mesh({10, 10, 10}, {{1, 1, 1}});
   const auto [displacement, scale] =
       GENERATE(table<double, double>({{0.0, 2}, {0.001, 100}, {0.1, 50}, {1.0, 5}, {20.0, 2}}));
   const Points both = moved(mesh, {displacement, 0, 0});

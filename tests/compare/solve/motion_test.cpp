@@ -245,7 +245,7 @@ over_time = "peak"
 TEST_CASE("a motion keeps its way through bytes, and damaged ones are refused") {
   const compare::Comparison comparison = compare::compare_case(released(), {cases::Side::msm});
   compare::Answer answer = comparison.answers.msm;
-  const cases::HexMesh& mesh = comparison.scene.mesh;
+  const cases::Mesh& mesh = comparison.scene.mesh;
   const auto copy = compare::result_from<compare::Answer>(cases::to_bytes(answer), mesh);
   REQUIRE(copy.solution.trajectory);
   CHECK((copy.solution.trajectory->displacement == answer.solution.trajectory->displacement));

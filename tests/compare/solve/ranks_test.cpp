@@ -200,7 +200,7 @@ TEST_CASE_METHOD(WithMpi, "cells of terms and networks have the same fields on a
 
 TEST_CASE_METHOD(WithMpi, "ranks add up what they give of nodes, and deal out and gather cells' tensors",
                  "[ranks]") {
-  const cases::HexMesh mesh = cases::make_box_mesh({4, 4, 9}, {4, 4, 9});
+  const cases::Mesh mesh = cases::make_box_mesh({4, 4, 9}, {4, 4, 9});
   const auto sharing = mechanics::share_out(mesh, PETSC_COMM_WORLD);
   REQUIRE((sharing != nullptr) == (n_ranks() > 1));
   if (!sharing) return;

@@ -1,7 +1,7 @@
 #include "compare/sweep/sweep.hpp"
 
 #include "cases/case/read_case.hpp"
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

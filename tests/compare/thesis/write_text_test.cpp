@@ -154,7 +154,7 @@ TEST_CASE("the advice tells what a case takes that names no design") {
 
 TEST_CASE("a figure of bodies holds the faces and edges that look at the viewer, displaced") {
   const TemporaryFolder folder;
-  const cases::HexMesh mesh = cases::make_box_mesh({1, 1, 1}, {{1, 1, 1}});
+  const cases::Mesh mesh = cases::make_box_mesh({1, 1, 1}, {{1, 1, 1}});
   const Points fem(8, {0, 0, 0.5}), springs(8, {2, 0, 0});
   compare::plot_bodies(folder.path.string(), "cube", {{"one", {&mesh, &fem}, {&mesh, &springs}}}, 1);
   const auto blocks = blocks_of(folder.path / "cube.csv");
@@ -177,7 +177,7 @@ TEST_CASE("a figure of bodies holds the faces and edges that look at the viewer,
 
 TEST_CASE("a body without an equilibrium leaves its place in the figure empty") {
   const TemporaryFolder folder;
-  const cases::HexMesh mesh = cases::make_box_mesh({1, 1, 1}, {{1, 1, 1}});
+  const cases::Mesh mesh = cases::make_box_mesh({1, 1, 1}, {{1, 1, 1}});
   const Points fem(8, {0, 0, 0.5}), none;
   compare::plot_bodies(folder.path.string(), "cube", {{"one", {&mesh, &fem}, {&mesh, &none}}}, 1);
   const auto blocks = blocks_of(folder.path / "cube.csv");

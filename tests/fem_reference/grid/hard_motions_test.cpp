@@ -88,7 +88,7 @@ TEST_CASE("a body that nothing holds is set spinning by a torque, and both backe
   CHECK(largest_displacement(grid) > 3); // a corner is 5 mm from the axis
   CHECK(largest_difference(grid, assembled) <= 1e-6 * largest_displacement(assembled));
   Vector3d sum = Vector3d::Zero(); // the centre of mass stays: lumped masses of corners, edges, faces
-  const cases::HexMesh mesh = cases::make_scene(definition).mesh;
+  const cases::Mesh mesh = cases::make_scene(definition).mesh;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (const int node : mesh.cells[c]) sum += grid.displacement[cases::index(node)];
   CHECK(sum.norm() <= 1e-8 * double(8 * mesh.cells.size()));

@@ -1,6 +1,6 @@
 // The grid's tangent and the changes of the cells' unknowns as derivatives of their balanced forces.
 
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 #include "fem_reference/grid/stencil_levels.hpp"
 
 #include <catch2/catch.hpp>

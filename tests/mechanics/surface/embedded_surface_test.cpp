@@ -14,13 +14,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-mechanics::EmbeddedSurface surface_of(const cases::HexMesh& mesh) {
+mechanics::EmbeddedSurface surface_of(const cases::Mesh& mesh) {
   return mechanics::embed(cases::triangles_of_faces(mesh, cases::boundary_faces(mesh)), mesh);
 }
 
 /// Sum over the nodes of a patch of weight times a function of their place.
 template<class Function>
-double mean(const std::vector<cases::WeightedPoint>& patch, const cases::HexMesh& mesh,
+double mean(const std::vector<cases::WeightedPoint>& patch, const cases::Mesh& mesh,
             const Function& function) {
   double sum = 0;
   for (const auto& [node, weight] : cases::on_nodes(patch, mesh))
@@ -54,8 +54,8 @@ cases::TriangleMesh sphere(double radius, int n_rings, int n_around) {
 }
 
 /// Cells between -1 and 1, of any shape when distorted.
-cases::HexMesh body(double distortion) {
-  cases::HexMesh mesh = cases::make_box_mesh({2, 2, 2}, {4, 3, 5});
+cases::Mesh body(double distortion) {
+  cases::Mesh mesh = cases::make_box_mesh({2, 2, 2}, {4, 3, 5});
   std::vector<Vector3d>& nodes = mesh.nodes.stored();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const auto k = static_cast<double>(n);
@@ -82,7 +82,7 @@ TEST_CASE("an embedded surface reproduces a linear displacement inside and outsi
   for (const double distortion : {0.0, 0.08})
     for (const double radius : {0.5, 0.9, 1.4, 4.0}) {
       CAPTURE(distortion, radius);
-      const cases::HexMesh mesh = body(distortion);
+      const cases::Mesh mesh = body(distortion);
       const auto surface = mechanics::embed(sphere(radius, 9, 14), mesh);
       std::vector<Vector3d> moved;
       mechanics::move(surface, linear_displacement(mesh.nodes.to_vector()), moved);
@@ -98,7 +98,7 @@ TEST_CASE("an embedded surface reproduces a linear displacement inside and outsi
 }
 
 TEST_CASE("a surface follows a bent body as its trilinear cells do", "[verification]") {
-  const cases::HexMesh mesh = body(0);
+  const cases::Mesh mesh = body(0);
   std::vector<Vector3d> displacement; // x y z: in the space of trilinear cells along the axes
   for (const Vector3d& x : mesh.nodes) displacement.push_back({x.y() * x.z(), x.x() * x.y() * x.z(), x.x()});
   const auto surface = mechanics::embed(sphere(0.95, 8, 12), mesh);
@@ -110,7 +110,7 @@ TEST_CASE("a surface follows a bent body as its trilinear cells do", "[verificat
 }
 
 TEST_CASE("a point outside of a body is bound to the nearest point of its cells", "[verification]") {
-  const cases::HexMesh mesh = body(0);
+  const cases::Mesh mesh = body(0);
   cases::TriangleMesh points;
   points.vertices = {{1.5, 0.1, 0.2}, {1.7, -1.3, 0.9}, {-3, 2, -1.1}, {0.2, 0.3, 0.1}};
   points.triangles = {{0, 1, 2}};
@@ -132,7 +132,7 @@ TEST_CASE("a point outside of a body is bound to the nearest point of its cells"
 }
 
 TEST_CASE("the outer surface of a box is closed, bound to its nodes and seen from outside") {
-  const cases::HexMesh mesh = body(0);
+  const cases::Mesh mesh = body(0);
   const cases::TriangleMesh outer = cases::triangles_of_faces(mesh, cases::boundary_faces(mesh));
   CHECK(outer.vertices.size() == mesh.nodes.size() - 3 * 2 * 4);
   CHECK(outer.triangles.size() == 2 * 2 * (4 * 3 + 3 * 5 + 4 * 5));
@@ -154,7 +154,7 @@ TEST_CASE("weights of a patch add up to 1, and tend to its mean over the area as
   const Vector3d centre(10, 5, 5);
   double error_before = 0;
   for (const int n : {10, 40}) {
-    const cases::HexMesh mesh = cases::make_box_mesh({10, 10, 10}, {n, n, n});
+    const cases::Mesh mesh = cases::make_box_mesh({10, 10, 10}, {n, n, n});
     const auto weights = mechanics::patch_within(surface_of(mesh), centre, 4);
     CHECK(mean(weights, mesh, [](const Vector3d&) { return 1; }) == Approx(1).epsilon(1e-12)); // rounding
     CHECK(mean(weights, mesh, [](const Vector3d& at) { return at.x(); }) == Approx(10).epsilon(1e-12));
@@ -169,7 +169,7 @@ TEST_CASE("weights of a patch add up to 1, and tend to its mean over the area as
 }
 
 TEST_CASE("a patch of no radius is its vertex, and where no vertex lies there is none") {
-  const cases::HexMesh mesh = cases::make_box_mesh({10, 10, 10}, {2, 2, 2});
+  const cases::Mesh mesh = cases::make_box_mesh({10, 10, 10}, {2, 2, 2});
   const mechanics::EmbeddedSurface surface = surface_of(mesh);
   const auto vertex = mechanics::patch_within(surface, {10, 5, 5}, 0);
   CHECK(mean(vertex, mesh, [](const Vector3d& at) { return (at - Vector3d(10, 5, 5)).norm(); }) < 1e-12);
@@ -179,7 +179,7 @@ TEST_CASE("a patch of no radius is its vertex, and where no vertex lies there is
 }
 
 TEST_CASE("vertices without triangles share a patch equally") {
-  const cases::HexMesh mesh = cases::make_box_mesh({10, 10, 10}, {1, 1, 1});
+  const cases::Mesh mesh = cases::make_box_mesh({10, 10, 10}, {1, 1, 1});
   const mechanics::EmbeddedSurface surface = mechanics::embed({{{0, 0, 0}, {10, 0, 0}}, {}}, mesh);
   const auto weights = mechanics::patch_within(surface, {5, 0, 0}, 5);
   CHECK(mean(weights, mesh, [](const Vector3d& at) { return at.x(); }) == Approx(5).epsilon(1e-12));

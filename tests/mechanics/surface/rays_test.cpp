@@ -40,7 +40,7 @@ TEST_CASE("a ray meets a triangle at the distance of its plane, at edges and cor
 }
 
 TEST_CASE("the distance to a surface is that of the nearer side") {
-  const cases::HexMesh mesh = cases::make_box_mesh({2, 2, 2}, {2, 2, 2});
+  const cases::Mesh mesh = cases::make_box_mesh({2, 2, 2}, {2, 2, 2});
   const cases::TriangleMesh box = cases::triangles_of_faces(mesh, cases::boundary_faces(mesh));
   const auto distance = [&](const Vector3d& from, const Vector3d& along) {
     return mechanics::distance_to_surface({from, along}, box.triangles, box.vertices);

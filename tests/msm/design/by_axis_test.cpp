@@ -186,7 +186,7 @@ TEST_CASE(
 
   // Cells of a body share springs: under an affine displacement it stores the lattice's energy, and its inner
   // points are in equilibrium.
-  const cases::HexMesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(4 * cell_side), {4, 4, 4});
+  const cases::Mesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(4 * cell_side), {4, 4, 4});
   const msm::Lattice lattice = msm::make_lattice(mesh, design.springs);
   const double volume = std::pow(4 * cell_side, 3);
   std::mt19937 generator(1);

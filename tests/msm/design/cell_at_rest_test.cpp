@@ -18,7 +18,7 @@ namespace {
 double modulus(const msm::CellStiffness& stiffness, double edge, const Eigen::Matrix3d& a,
                const Eigen::Matrix3d& b) {
   const int n = 4;
-  const cases::HexMesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(n * edge), {n, n, n});
+  const cases::Mesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(n * edge), {n, n, n});
   const msm::Lattice lattice = msm::make_lattice(mesh, {stiffness});
   const auto u = [&](const Eigen::Matrix3d& e, int p) -> Eigen::Vector3d {
     return e * lattice.rest[static_cast<std::size_t>(p)];
@@ -46,7 +46,7 @@ const msm::CellStiffness with_volume = {0.031, 0.047, 0.033, 0.14};
 TEST_CASE("every interior point of an affinely deformed lattice is in equilibrium", "[verification]") {
   const int n = 4;
   const double edge = 1.3;
-  const cases::HexMesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(n * edge), {n, n, n});
+  const cases::Mesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(n * edge), {n, n, n});
   const msm::Lattice lattice = msm::make_lattice(mesh, {with_volume});
   Eigen::Matrix3d deformation;
   deformation << 1.2, 0.3, -0.1, 0.05, 0.9, 0.2, 0.1, -0.15, 1.1;

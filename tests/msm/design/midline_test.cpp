@@ -34,7 +34,7 @@ msm::DesignResult designed(Design design, double nu, std::optional<double> beta 
 /// E I, N mm², of a free bar whose square section has n x n cells of 1 mm, bent by end moments: the energy of
 /// one layer of cells under curvature 1, the same section beside each of its ends, whose shape is free.
 double bending_stiffness_of_bar(const msm::SpringBody& springs, int n) {
-  const cases::HexMesh mesh = cases::make_box_mesh(Vector3d(n, n, 1), {n, n, 1});
+  const cases::Mesh mesh = cases::make_box_mesh(Vector3d(n, n, 1), {n, n, 1});
   const msm::Lattice lattice = msm::make_lattice(mesh, springs);
   const int n_nodes = (n + 1) * (n + 1);
   MatrixXd k = MatrixXd::Zero(6 * n_nodes, 6 * n_nodes);

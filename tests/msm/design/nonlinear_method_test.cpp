@@ -83,7 +83,7 @@ TEST_CASE("equations 5.3 and 5.4 are the equilibrium of the cell of springs", "[
   const double edge = 1.3, strain = 0.25;
   const msm::UniaxialCurve curve = msm::uniaxial_response(published, edge, {strain});
   const double z = edge * std::exp(strain), x = edge * std::exp(curve.lateral_strain[0]);
-  const cases::HexMesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(edge), {1, 1, 1});
+  const cases::Mesh mesh = cases::make_box_mesh(Eigen::Vector3d::Constant(edge), {1, 1, 1});
   const msm::Lattice lattice = msm::make_lattice(mesh, {published});
   msm::Points positions = lattice.rest;
   for (Eigen::Vector3d& p : positions) p = p.cwiseProduct(Eigen::Vector3d(x, x, z)) / edge;

@@ -36,7 +36,7 @@ msm::BodyTerms of_box(const std::array<int, 3>& cells, std::vector<msm::CellTerm
 }
 
 /// Internal forces of linear tetrahedra of St. Venant-Kirchhoff in the cut cells of a body.
-msm::Points finite_element_forces(const cases::HexMesh& mesh, const msm::BodyTerms& terms,
+msm::Points finite_element_forces(const cases::Mesh& mesh, const msm::BodyTerms& terms,
                                   const msm::Points& positions, const mechanics::ElasticModuli& moduli) {
   msm::Points forces(positions.size(), Vector3d::Zero());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
@@ -61,8 +61,8 @@ TEST_CASE("the five tetrahedra of a cell fill it, in either kind") {
     for (const auto& vertices : msm::five_tetrahedra(kind)) {
       msm::TetrahedronPositions x;
       for (std::size_t v = 0; v < 4; ++v) x[v] = msm::cube(1)[cases::index(vertices[v])];
-      CHECK(msm::tetrahedron_volume(x) > 0);
-      sum += msm::tetrahedron_volume(x);
+      CHECK(msm::volume_of(x) > 0);
+      sum += msm::volume_of(x);
     }
     CHECK(sum == Approx(1).epsilon(1e-15));
   }
@@ -87,7 +87,7 @@ TEST_CASE("the periodic lattices of cut cells have the moduli of their formulas"
 TEST_CASE("points inside a lattice of cut cells are in equilibrium under an affine deformation",
           "[verification]") {
   const std::array<int, 3> cells{4, 4, 4};
-  const cases::HexMesh mesh = cases::make_box_mesh({4, 4, 4}, cells);
+  const cases::Mesh mesh = cases::make_box_mesh({4, 4, 4}, cells);
   const auto kinds = GENERATE(msm::van_gelder(msm::cube(1), soft_modulus),
                               msm::lloyd(msm::cube(1), soft_modulus), msm::biquadratic(0.3, 0.1));
   const msm::Lattice lattice = msm::make_lattice(mesh, of_box(cells, kinds));

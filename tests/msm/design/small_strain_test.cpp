@@ -30,7 +30,7 @@ msm::CellVertices distorted() {
 TEST_CASE("the cell's matrix is the tangent of its lattice at rest", "[verification]") {
   const msm::CellVertices cell = distorted();
   const msm::CellStiffness with_volume = {0.031, 0.047, 0.033, 0.2};
-  cases::HexMesh mesh;
+  cases::Mesh mesh;
   mesh.nodes.stored().assign(cell.begin(), cell.end());
   mesh.cells.stored() = {{0, 1, 2, 3, 4, 5, 6, 7}};
   const msm::Lattice lattice = msm::make_lattice(mesh, {with_volume});

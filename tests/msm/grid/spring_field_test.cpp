@@ -22,7 +22,7 @@ struct Both {
   Problem problem;
   msm::grid::GridProblem grid;
   Points displacement, direction;
-  Both(const cases::HexMesh& mesh, const std::vector<CellStiffness>& stiffness)
+  Both(const cases::Mesh& mesh, const std::vector<CellStiffness>& stiffness)
       : problem{
             mesh, msm::make_lattice(mesh, stiffness), {}, std::vector<bool>(3 * mesh.nodes.size(), false)} {
     for (std::size_t d : {0, 1, 2, 5, 10}) problem.is_constrained[d] = true;

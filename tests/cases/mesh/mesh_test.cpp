@@ -1,4 +1,4 @@
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -15,15 +15,15 @@ namespace {
 
 constexpr double rounding = 1e-13; ///< relative; a few operations on numbers of order 1 to 100
 
-std::array<Vector3d, 8> unit_cube() {
-  std::array<Vector3d, 8> vertices;
+CellCorners unit_cube() {
+  CellCorners vertices(8);
   for (int v = 0; v < 8; ++v) vertices[static_cast<std::size_t>(v)] = Vector3d(v & 1, (v >> 1) & 1, v >> 2);
   return vertices;
 }
 
-double total_volume(const HexMesh& mesh) {
+double total_volume(const Mesh& mesh) {
   double volume = 0;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) volume += cell_volume(cell_vertices(mesh, c));
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) volume += cell_volume(cell_corners(mesh, c));
   return volume;
 }
 
@@ -47,7 +47,7 @@ TEST_CASE("a cropped grid has the same mesh without the empty layers around it")
         grid.present.push_back(i >= 1 && i < 4 && j < 3 && k >= 2 && (i + j + k) % 5 != 0);
   const Grid part = cropped(grid);
   CHECK(part.cells == std::array<int, 3>{3, 3, 4});
-  const HexMesh whole = make_grid_mesh(grid), mesh = make_grid_mesh(part);
+  const Mesh whole = make_grid_mesh(grid), mesh = make_grid_mesh(part);
   REQUIRE(mesh.cells.size() == whole.cells.size());
   REQUIRE(mesh.nodes.size() == whole.nodes.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) CHECK(mesh.cells[c] == whole.cells[c]);
@@ -57,7 +57,7 @@ TEST_CASE("a cropped grid has the same mesh without the empty layers around it")
 }
 
 TEST_CASE("a box has its nodes with x running fastest, and its far faces exactly at its size") {
-  const HexMesh mesh = make_box_mesh({0.3, 0.7, 1.1}, {3, 7, 11});
+  const Mesh mesh = make_box_mesh({0.3, 0.7, 1.1}, {3, 7, 11});
   REQUIRE(mesh.nodes.size() == 4 * 8 * 12);
   REQUIRE(mesh.cells.size() == 3 * 7 * 11);
   CHECK(mesh.nodes[1].y() == 0);
@@ -68,9 +68,9 @@ TEST_CASE("a box has its nodes with x running fastest, and its far faces exactly
 TEST_CASE(
     "nodes and cells of a whole grid follow from their numbers, and are those that a mask would store") {
   Grid grid{{3, 2, 4}, {0.1, 0.7, 1.1}, {-1, 1e-3, 7}, {}};
-  HexMesh ruled = make_grid_mesh(grid);
+  Mesh ruled = make_grid_mesh(grid);
   grid.present.assign(3 * 2 * 4, true);
-  const HexMesh stored = make_grid_mesh(grid);
+  const Mesh stored = make_grid_mesh(grid);
   CHECK(ruled.nodes.values.empty());
   CHECK(ruled.cells.values.empty());
   CHECK(ruled.nodes.size() == stored.nodes.size());
@@ -83,7 +83,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a masked grid has the present cells, and nodes that they touch alone") {
-  const HexMesh mesh = make_grid_mesh(l_shape());
+  const Mesh mesh = make_grid_mesh(l_shape());
   CHECK(mesh.cells.size() == 3);
   CHECK(mesh.nodes.size() == 18 - 2); // the edge at x = 2, z = 2 belongs to the missing cell alone
   CHECK(total_volume(mesh) == Approx(3).epsilon(rounding));
@@ -94,7 +94,7 @@ TEST_CASE("the surface of a grid, found from its cells' neighbours, is the one f
   Grid holes{{5, 4, 6}, {1, 2, 3}, {0, 0, 0}, {}};
   for (std::size_t c = 0; c < holes.n_lattice_cells(); ++c)
     holes.present.push_back(c % 7 != 3 && c % 11 != 5);
-  for (HexMesh mesh : {make_grid_mesh(holes), make_box_mesh({5, 8, 18}, {5, 4, 6})}) {
+  for (Mesh mesh : {make_grid_mesh(holes), make_box_mesh({5, 8, 18}, {5, 4, 6})}) {
     const auto by_neighbours = boundary_faces(mesh);
     mesh.grid.reset();
     CHECK(by_neighbours == boundary_faces(mesh));
@@ -148,25 +148,25 @@ TEST_CASE(
 }
 
 TEST_CASE("refinement keeps the body, the numbers of its nodes and the parentage of its cells") {
-  HexMesh mesh = make_grid_mesh(l_shape());
+  Mesh mesh = make_grid_mesh(l_shape());
   mesh.nodes.stored()[5] += Vector3d(0.1, -0.05, 0.08); // no longer a box of planes
-  const HexMesh fine = refine(mesh);
+  const Mesh fine = refine(mesh);
   CHECK(fine.cells.size() == 8 * mesh.cells.size());
   CHECK(total_volume(fine) == Approx(total_volume(mesh)).epsilon(rounding));
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) CHECK(fine.nodes[n] == mesh.nodes[n]);
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     double children = 0;
     for (std::size_t child = 8 * c; child < 8 * c + 8; ++child) {
-      children += cell_volume(cell_vertices(fine, child));
-      CHECK(smallest_corner_jacobian(cell_vertices(fine, child)) > 0);
+      children += cell_volume(cell_corners(fine, child));
+      CHECK(smallest_corner_jacobian(cell_corners(fine, child)) > 0);
     }
-    CHECK(children == Approx(cell_volume(cell_vertices(mesh, c))).epsilon(rounding));
+    CHECK(children == Approx(cell_volume(cell_corners(mesh, c))).epsilon(rounding));
   }
   CHECK(boundary_faces(fine).size() == 4 * boundary_faces(mesh).size());
 }
 
 TEST_CASE("refinement splits the faces and edges of groups and adds their midpoints") {
-  HexMesh mesh = make_box_mesh({1, 1, 1}, {1, 1, 1});
+  Mesh mesh = make_box_mesh({1, 1, 1}, {1, 1, 1});
   mesh.groups["top"] = {{4, 5, 6, 7}, {{4, 5}, {5, 7}, {6, 7}, {4, 6}}, {{4, 5, 7, 6}}};
   const Selection top = refine(mesh).groups.at("top");
   CHECK(top.nodes.size() == 9);

@@ -1,27 +1,25 @@
-#include "cases/mesh/hex_mesh.hpp"
+#include "cases/mesh/mesh.hpp"
 
 #include "cases/mesh/sharing.hpp"
-#include "mechanics/hexahedron.hpp"
 
-#include <Eigen/LU>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 namespace springproof::cases {
 
 using Eigen::Vector3d;
 
-const std::array<std::array<int, 2>, 12> cell_edges{
-    {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
-
-const std::array<std::array<int, 2>, 12> cell_face_diagonals{
-    {{0, 6}, {2, 4}, {1, 7}, {3, 5}, {0, 5}, {1, 4}, {2, 7}, {3, 6}, {0, 3}, {1, 2}, {4, 7}, {5, 6}}};
-
-const std::array<std::array<int, 2>, 4> cell_internal_diagonals{{{0, 7}, {1, 6}, {2, 5}, {3, 4}}};
-
-const std::array<std::array<int, 4>, 6> cell_faces{
-    {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+// Two of them have two vertices exchanged, so that all have a positive volume; the edge that divides their
+// own middles, from the midpoint of 0 and 2 to that of 1 and 3, stays.
+const std::array<std::array<std::array<int, 2>, 4>, 8> tetrahedron_children{
+    {{{{0, 0}, {0, 1}, {0, 2}, {0, 3}}},
+     {{{0, 1}, {1, 1}, {1, 2}, {1, 3}}},
+     {{{0, 2}, {1, 2}, {2, 2}, {2, 3}}},
+     {{{0, 3}, {1, 3}, {2, 3}, {3, 3}}},
+     {{{0, 1}, {0, 2}, {0, 3}, {1, 3}}},
+     {{{1, 2}, {0, 2}, {0, 1}, {1, 3}}},
+     {{{0, 2}, {0, 3}, {1, 3}, {2, 3}}},
+     {{{1, 3}, {1, 2}, {0, 2}, {2, 3}}}}};
 
 namespace {
 
@@ -51,11 +49,10 @@ std::optional<std::array<int, 3>> steps(const Vector3d& from_origin, const Vecto
 }
 
 /// The cell with its vertices in the order i + 2j + 4k along the axes, if it is a cuboid with that spacing.
-std::optional<std::array<int, 8>> along_axes(const HexMesh& mesh, std::size_t cell, const Vector3d& spacing) {
-  const auto vertices = cell_vertices(mesh, cell);
+std::optional<CellNodes> along_axes(const Mesh& mesh, std::size_t cell, const Vector3d& spacing) {
+  const CellCorners vertices = cell_corners(mesh, cell);
   const Vector3d lower = bounding_box(vertices).min();
-  std::array<int, 8> ordered;
-  ordered.fill(-1);
+  CellNodes ordered(8, -1);
   for (std::size_t v = 0; v < 8; ++v) {
     const auto corner = steps(vertices[v] - lower, spacing);
     if (!corner || sorted(*corner).back() > 1) return std::nullopt;
@@ -94,6 +91,21 @@ class Midpoints {
   std::map<std::array<int, 8>, int> numbers_;
 };
 
+/// The parts of a face: a corner's of a quadrangle is one, and a triangle has one in the middle too.
+std::vector<FaceNodes> parts_of_face(const FaceNodes& face, Midpoints& midpoints) {
+  const std::size_t n = face.size();
+  FaceNodes middles; // of the sides
+  for (const auto& [from, to] : sides_of(face)) middles.push_back(midpoints.of({from, to}));
+  std::vector<FaceNodes> parts;
+  for (std::size_t v = 0; v < n; ++v) {
+    parts.push_back({face[v], middles[v]});
+    if (n == 4) parts.back().push_back(midpoints.of({face.begin(), face.end()}));
+    parts.back().push_back(middles[(v + n - 1) % n]);
+  }
+  if (n == 3) parts.push_back(middles);
+  return parts;
+}
+
 Selection refine_selection(const Selection& coarse, Midpoints& midpoints) {
   Selection fine;
   fine.nodes = coarse.nodes;
@@ -102,17 +114,30 @@ Selection refine_selection(const Selection& coarse, Midpoints& midpoints) {
     fine.nodes.push_back(middle);
     for (int end : edge) fine.edges.push_back(sorted(std::array<int, 2>{end, middle}));
   }
-  for (const auto& face : coarse.faces) {
-    const int middle = midpoints.of({face.begin(), face.end()});
-    fine.nodes.push_back(middle);
-    for (std::size_t v = 0; v < 4; ++v) {
-      const int next = midpoints.of({face[v], face[(v + 1) % 4]});
-      const int previous = midpoints.of({face[v], face[(v + 3) % 4]});
-      fine.faces.push_back({face[v], next, middle, previous});
-      fine.edges.push_back(sorted(std::array<int, 2>{next, middle}));
-      fine.nodes.push_back(next);
+  for (const FaceNodes& face : coarse.faces)
+    for (const FaceNodes& part : parts_of_face(face, midpoints)) {
+      fine.faces.push_back(part);
+      fine.nodes.insert(fine.nodes.end(), part.begin(), part.end());
+      for (const auto& side : sides_of(part)) fine.edges.push_back(sorted(side));
     }
-  }
+  make_set(fine.edges);
+  return fine;
+}
+
+/// The vertices of a child of a cell.
+CellNodes child_of(const Mesh& mesh, std::size_t cell, int child, Midpoints& midpoints) {
+  const CellNodes coarse = mesh.cells[cell];
+  CellNodes fine;
+  if (mesh.shape == CellShape::tetrahedron)
+    for (const auto& [a, b] : tetrahedron_children[index(child)])
+      fine.push_back(a == b ? coarse[index(a)] : midpoints.of({coarse[index(a)], coarse[index(b)]}));
+  else
+    for (int v = 0; v < 8; ++v) {
+      std::vector<int> around; // vertices of the coarse cell on the child's side wherever v is on it too
+      for (int w = 0; w < 8; ++w)
+        if (((w ^ child) & ~(v ^ child)) == 0) around.push_back(coarse[index(w)]);
+      fine.push_back(midpoints.of(around));
+    }
   return fine;
 }
 
@@ -182,9 +207,9 @@ Pieces pieces_of(const Grid& grid) {
   return pieces;
 }
 
-HexMesh make_grid_mesh(const Grid& grid) {
+Mesh make_grid_mesh(const Grid& grid) {
   assert(grid.present.empty() || grid.present.size() == grid.n_lattice_cells());
-  HexMesh mesh;
+  Mesh mesh;
   mesh.grid = grid;
   if (grid.present.empty()) {
     const Vector3d size = grid.spacing.cwiseProduct(Vector3d(grid.cells[0], grid.cells[1], grid.cells[2]));
@@ -203,7 +228,7 @@ HexMesh make_grid_mesh(const Grid& grid) {
   };
   for_each_vertex([](int, int& number) { number = 0; });
   std::vector<Vector3d> nodes;
-  std::vector<std::array<int, 8>> cells;
+  std::vector<CellNodes> cells;
   for_each_place(points, [&](int i, int j, int k) {
     int& number = numbers[number_of(i, j, k, points)];
     if (number < 0) return;
@@ -212,28 +237,29 @@ HexMesh make_grid_mesh(const Grid& grid) {
   });
   for_each_vertex([&](int v, int number) {
     if (v == 0) cells.emplace_back();
-    cells.back()[index(v)] = number;
+    cells.back().push_back(number);
   });
   mesh.nodes = std::move(nodes);
   mesh.cells = std::move(cells);
   return mesh;
 }
 
-HexMesh make_box_mesh(const Vector3d& size, const std::array<int, 3>& cells) {
+Mesh make_box_mesh(const Vector3d& size, const std::array<int, 3>& cells) {
   Grid grid;
   grid.cells = cells;
   grid.spacing = size.cwiseQuotient(Vector3d(cells[0], cells[1], cells[2]));
-  HexMesh mesh = make_grid_mesh(grid);
+  Mesh mesh = make_grid_mesh(grid);
   // n * (size / n) need not be size: the far faces are put where the case file says.
   mesh.nodes = RuledList(GridNodes{grid.cells, grid.origin, grid.spacing, size});
   return mesh;
 }
 
-bool find_grid(HexMesh& mesh) {
+bool find_grid(Mesh& mesh) {
+  if (mesh.shape != CellShape::hexahedron) return false;
   const Eigen::AlignedBox3d body = bounding_box(mesh.nodes);
   Grid grid;
   grid.origin = body.min();
-  grid.spacing = bounding_box(cell_vertices(mesh, 0)).sizes();
+  grid.spacing = bounding_box(cell_corners(mesh, 0)).sizes();
   if (!((grid.spacing.array() > 0).all())) return false;
   const auto extent = steps(body.sizes(), grid.spacing);
   if (!extent) return false;
@@ -242,7 +268,7 @@ bool find_grid(HexMesh& mesh) {
 
   const std::array<int, 3> points{grid.cells[0] + 1, grid.cells[1] + 1, grid.cells[2] + 1};
   std::map<std::size_t, int> node_at; // two nodes at a place are a slit, which no grid has
-  std::map<std::size_t, std::pair<std::array<int, 8>, std::size_t>> by_place;
+  std::map<std::size_t, std::pair<CellNodes, std::size_t>> by_place;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto cell = along_axes(mesh, c, grid.spacing);
     if (!cell) return false;
@@ -262,7 +288,7 @@ bool find_grid(HexMesh& mesh) {
 
   if (mesh.cells.size() < grid.n_lattice_cells()) grid.present.assign(grid.n_lattice_cells(), false);
   const std::vector<std::string> groups = mesh.group_of_cell;
-  std::vector<std::array<int, 8>>& cells = mesh.cells.stored();
+  std::vector<CellNodes>& cells = mesh.cells.stored();
   std::size_t c = 0;
   for (const auto& [number, cell] : by_place) {
     if (!grid.present.empty()) grid.present[number] = true;
@@ -274,22 +300,17 @@ bool find_grid(HexMesh& mesh) {
   return true;
 }
 
-HexMesh refine(const HexMesh& mesh) {
-  HexMesh fine;
+Mesh refine(const Mesh& mesh) {
+  Mesh fine;
   std::vector<Vector3d>& nodes = fine.nodes.stored();
-  std::vector<std::array<int, 8>>& cells = fine.cells.stored();
+  std::vector<CellNodes>& cells = fine.cells.stored();
+  fine.shape = mesh.shape;
   nodes = mesh.nodes.to_vector();
   Midpoints midpoints(nodes);
   cells.reserve(8 * mesh.cells.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (int child = 0; child < 8; ++child) {
-      std::array<int, 8>& cell = cells.emplace_back();
-      for (int v = 0; v < 8; ++v) {
-        std::vector<int> around; // vertices of the coarse cell on the child's side wherever v is on it too
-        for (int w = 0; w < 8; ++w)
-          if (((w ^ child) & ~(v ^ child)) == 0) around.push_back(mesh.cells[c][index(w)]);
-        cell[index(v)] = midpoints.of(around);
-      }
+      cells.push_back(child_of(mesh, c, child, midpoints));
       if (!mesh.group_of_cell.empty()) fine.group_of_cell.push_back(mesh.group_of_cell[c]);
     }
   for (const auto& [name, group] : mesh.groups) fine.groups[name] = refine_selection(group, midpoints);
@@ -302,67 +323,55 @@ HexMesh refine(const HexMesh& mesh) {
   return fine;
 }
 
-double cell_volume(const std::array<Vector3d, 8>& vertices) {
-  double volume = 0;
-  for (int q = 0; q < 8; ++q)
-    volume += mechanics::jacobian(vertices, mechanics::gauss_point(q)).determinant() / 8;
-  return volume;
-}
-
-double smallest_corner_jacobian(const std::array<Vector3d, 8>& vertices) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (int v = 0; v < 8; ++v) {
-    const Vector3d& here = vertices[index(v)];
-    const Vector3d x = vertices[index(v ^ 1)] - here, y = vertices[index(v ^ 2)] - here,
-                   z = vertices[index(v ^ 4)] - here;
-    const bool mirrored = (v ^ (v >> 1) ^ (v >> 2)) & 1; // an odd number of the edges leads backwards
-    const double determinant = x.dot(y.cross(z));
-    if (std::isnan(determinant)) return determinant; // std::min would drop it
-    smallest = std::min(smallest, mirrored ? -determinant : determinant);
-  }
-  return smallest;
-}
-
-std::vector<bool> inverted_cells(const HexMesh& mesh, const std::vector<Vector3d>& displacement,
+std::vector<bool> inverted_cells(const Mesh& mesh, const std::vector<Vector3d>& displacement,
                                  const Sharing* sharing) {
   const Share here = share_here(mesh, sharing);
   std::vector<bool> inverted;
   for (std::size_t c = here.cells.begin; c < here.cells.end; ++c)
     inverted.push_back(
-        !(smallest_corner_jacobian(cell_vertices(mesh, c, displacement, here.nodes.begin)) > 0));
+        !(smallest_corner_jacobian(cell_corners(mesh, c, displacement, here.nodes.begin)) > 0));
   return inverted;
 }
 
-int n_inverted(const HexMesh& mesh, const std::vector<Vector3d>& displacement, const Sharing* sharing) {
+int n_inverted(const Mesh& mesh, const std::vector<Vector3d>& displacement, const Sharing* sharing) {
   const std::vector<bool> inverted = inverted_cells(mesh, displacement, sharing);
   const auto n = std::count(inverted.begin(), inverted.end(), true);
   return static_cast<int>(sharing ? sharing->sum(static_cast<double>(n)) : static_cast<double>(n));
 }
 
-std::array<Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t cell,
-                                      const std::vector<Vector3d>& displacement, std::size_t first_node) {
-  std::array<Vector3d, 8> vertices;
-  for (std::size_t v = 0; v < 8; ++v) {
-    const std::size_t node = index(mesh.cells[cell][v]);
-    vertices[v] = displacement.empty() ? mesh.nodes[node]
-                                       : Vector3d(mesh.nodes[node] + displacement[node - first_node]);
+CellCorners cell_corners(const Mesh& mesh, std::size_t cell, const std::vector<Vector3d>& displacement,
+                         std::size_t first_node) {
+  CellCorners corners;
+  for (const int number : mesh.cells[cell]) {
+    corners.push_back(mesh.nodes[index(number)]);
+    if (!displacement.empty()) corners.back() += displacement[index(number) - first_node];
   }
+  return corners;
+}
+
+std::array<Vector3d, 8> cell_vertices(const Mesh& mesh, std::size_t cell,
+                                      const std::vector<Vector3d>& displacement, std::size_t first_node) {
+  assert(mesh.shape == CellShape::hexahedron);
+  const CellCorners corners = cell_corners(mesh, cell, displacement, first_node);
+  std::array<Vector3d, 8> vertices;
+  std::copy(corners.begin(), corners.end(), vertices.begin());
   return vertices;
 }
 
 namespace {
 
 /// The faces of a grid, without memory for others.
-std::vector<std::array<int, 4>> boundary_faces_of_grid(const HexMesh& mesh) {
-  std::vector<std::array<int, 4>> faces;
+std::vector<FaceNodes> boundary_faces_of_grid(const Mesh& mesh) {
+  const ReferenceCell& shape = reference_cell(mesh.shape);
+  std::vector<FaceNodes> faces;
   std::size_t cell = 0;
   for_each_place(mesh.grid->cells, [&](int i, int j, int k) {
     if (!mesh.grid->has(i, j, k)) return;
-    for (std::size_t f = 0; f < cell_faces.size(); ++f) {
+    for (std::size_t f = 0; f < shape.faces.size(); ++f) {
       std::array<int, 3> neighbour{i, j, k};
       neighbour[f / 2] += f % 2 == 0 ? -1 : 1;
       if (!mesh.grid->has(neighbour[0], neighbour[1], neighbour[2]))
-        faces.push_back(pick(mesh.cells[cell], cell_faces[f]));
+        faces.push_back(pick(mesh.cells[cell], shape.faces[f]));
     }
     ++cell;
   });
@@ -371,16 +380,16 @@ std::vector<std::array<int, 4>> boundary_faces_of_grid(const HexMesh& mesh) {
 
 } // namespace
 
-std::vector<std::array<int, 4>> boundary_faces(const HexMesh& mesh) {
+std::vector<FaceNodes> boundary_faces(const Mesh& mesh) {
   if (mesh.grid) return boundary_faces_of_grid(mesh);
-  std::map<std::array<int, 4>, int> uses;
+  std::map<FaceNodes, int> uses;
   const auto for_each_face = [&](const auto& action) {
-    for (const auto& cell : mesh.cells)
-      for (const auto& local : cell_faces) action(pick(cell, local));
+    for (const CellNodes& cell : mesh.cells)
+      for (const FaceNodes& local : reference_cell(mesh.shape).faces) action(pick(cell, local));
   };
-  for_each_face([&](const std::array<int, 4>& face) { ++uses[sorted(face)]; });
-  std::vector<std::array<int, 4>> faces;
-  for_each_face([&](const std::array<int, 4>& face) {
+  for_each_face([&](const FaceNodes& face) { ++uses[sorted(face)]; });
+  std::vector<FaceNodes> faces;
+  for_each_face([&](const FaceNodes& face) {
     if (uses[sorted(face)] == 1) faces.push_back(face);
   });
   return faces;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "cases/mesh/cell_shape.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -40,7 +41,7 @@ struct GridNodes {
 
 /// Vertices of its cells.
 struct GridCells {
-  using Value = std::array<int, 8>;
+  using Value = CellNodes;
   std::array<int, 3> cells{}; ///< along x, y, z; 0: none
 
   std::size_t size() const {
@@ -48,14 +49,13 @@ struct GridCells {
     for (const int along : cells) n *= static_cast<std::size_t>(along);
     return n;
   }
-  std::array<int, 8> operator[](std::size_t cell) const {
+  CellNodes operator[](std::size_t cell) const {
     const auto in_row = static_cast<std::size_t>(cells[0]), rows = static_cast<std::size_t>(cells[1]);
     const int row = cells[0] + 1, layer = row * (cells[1] + 1);
     const int first = static_cast<int>(cell % in_row) + row * static_cast<int>(cell / in_row % rows) +
                       layer * static_cast<int>(cell / in_row / rows);
-    std::array<int, 8> vertices{};
-    for (int v = 0; v < 8; ++v)
-      vertices[static_cast<std::size_t>(v)] = first + (v & 1) + ((v >> 1) & 1) * row + (v >> 2) * layer;
+    CellNodes vertices;
+    for (int v = 0; v < 8; ++v) vertices.push_back(first + (v & 1) + ((v >> 1) & 1) * row + (v >> 2) * layer);
     return vertices;
   }
 };
@@ -130,7 +130,7 @@ inline std::size_t index(std::ptrdiff_t i) {
 struct Selection {
   std::vector<int> nodes;
   std::vector<std::array<int, 2>> edges; ///< ascending node numbers
-  std::vector<std::array<int, 4>> faces; ///< around the face, seen from outside anticlockwise
+  std::vector<FaceNodes> faces;          ///< around the face, seen from outside anticlockwise
 };
 
 /// The grid of cubes or cuboids that a mesh was made from: node (i, j, k) lies at
@@ -151,24 +151,15 @@ struct Grid {
 
 class Sharing;
 
-/// The body's mesh, which both models are made from.
-struct HexMesh {
+/// The body's mesh, which both models are made from. All its cells are of one shape.
+struct Mesh {
+  CellShape shape = CellShape::hexahedron;
   RuledList<GridNodes> nodes;              ///< rest positions, mm
-  RuledList<GridCells> cells;              ///< vertex v = i + 2j + 4k sits at (i, j, k) in the reference cube
+  RuledList<GridCells> cells;              ///< in the order of the reference cell's vertices
   std::map<std::string, Selection> groups; ///< physical groups of a mesh file
   std::vector<std::string> group_of_cell; ///< name of its three-dimensional physical group; empty: none named
-  std::optional<Grid> grid;               ///< set when the mesh is a grid of cells
+  std::optional<Grid> grid;               ///< set when the mesh is a grid of hexahedra
 };
-
-/// The 12 edges, 12 face diagonals and 4 internal diagonals of a cell, and its 6 faces (anticlockwise from
-/// outside).
-extern const std::array<std::array<int, 2>, 12> cell_edges;
-extern const std::array<std::array<int, 2>, 12> cell_face_diagonals;
-extern const std::array<std::array<int, 2>, 4> cell_internal_diagonals;
-extern const std::array<std::array<int, 4>, 6> cell_faces; ///< x-, x+, y-, y+, z-, z+
-
-/// A cell's vertices as gmsh, VTK and CalculiX number them: around its bottom, then around its top.
-constexpr std::array<std::size_t, 8> around_cell{0, 1, 3, 2, 4, 5, 7, 6};
 
 /// The same cells without the empty layers around them: fields on a grid have numbers for what is empty too.
 Grid cropped(const Grid& grid);
@@ -184,50 +175,55 @@ Pieces pieces_of(const Grid& grid);
 
 /// Mesh of the present cells of a grid; nodes that no present cell touches are left out, x runs fastest.
 /// Where every cell is present, neither nodes nor cells are stored.
-HexMesh make_grid_mesh(const Grid& grid);
+Mesh make_grid_mesh(const Grid& grid);
 
 /// Box from the origin to size (mm), divided into cells.
-HexMesh make_box_mesh(const Eigen::Vector3d& size, const std::array<int, 3>& cells);
+Mesh make_box_mesh(const Eigen::Vector3d& size, const std::array<int, 3>& cells);
 
 /// Whether the cells of a mesh are equal cuboids along the axes, however they are numbered and turned; if so,
 /// mesh.grid is set, and the cells are put in the order and orientation that Grid asks for. Nodes keep their
 /// numbers and positions. Positions may be off by 1e-8 of the spacing, which is what mesh generators leave.
 /// @return whether a grid was found
-bool find_grid(HexMesh& mesh);
+bool find_grid(Mesh& mesh);
 
-/// Every cell split into eight at its trilinear midpoints, so the body stays the same body. The old nodes
-/// keep their numbers; the children of cell c are cells 8c .. 8c+7; groups are refined with it. The result is
-/// not numbered like a grid, so its grid is empty.
-HexMesh refine(const HexMesh& mesh);
+/// Every cell split into eight: a hexahedron at its trilinear midpoints, a tetrahedron at those of its edges
+/// (red refinement, in the order of Bey 1995, which makes no worse shapes than three). So the body stays the
+/// same body. The old nodes keep their numbers; the children of cell c are cells 8c .. 8c+7; groups are
+/// refined with it. The result is not numbered like a grid, so its grid is empty.
+Mesh refine(const Mesh& mesh);
 
-/// Volume of the trilinear hexahedron with these vertices (mm³; negative when inside out), exact (2x2x2
-/// Gauss).
-double cell_volume(const std::array<Eigen::Vector3d, 8>& vertices);
-
-/// The smallest of the eight corner Jacobian determinants of the map from the unit cube, mm³: not above 0 for
-/// an inverted or degenerate cell, not a number where a vertex is none.
-double smallest_corner_jacobian(const std::array<Eigen::Vector3d, 8>& vertices);
+/// The children of a tetrahedron, their vertices given by the two whose midpoint each of them is.
+extern const std::array<std::array<std::array<int, 2>, 4>, 8> tetrahedron_children;
 
 /// The vertices of one cell, displaced.
 /// @param displacement  one per node from the first on, or empty for the rest shape
-std::array<Eigen::Vector3d, 8> cell_vertices(const HexMesh& mesh, std::size_t cell,
+CellCorners cell_corners(const Mesh& mesh, std::size_t cell,
+                         const std::vector<Eigen::Vector3d>& displacement = {}, std::size_t first_node = 0);
+
+/// A hexahedron's vertices by number.  @param nodes  eight
+inline std::array<int, 8> hexahedron_nodes(const CellNodes& nodes) {
+  std::array<int, 8> vertices{};
+  std::copy_n(nodes.begin(), 8, vertices.begin());
+  return vertices;
+}
+/// The same as cell_corners() in a mesh of hexahedra.
+std::array<Eigen::Vector3d, 8> cell_vertices(const Mesh& mesh, std::size_t cell,
                                              const std::vector<Eigen::Vector3d>& displacement = {},
                                              std::size_t first_node = 0);
 
 /// Whether each cell that is here is inverted or degenerate.
 /// @param sharing  the ranks that share the displacement; null: all of it is here
-std::vector<bool> inverted_cells(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
+std::vector<bool> inverted_cells(const Mesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
                                  const Sharing* sharing = nullptr);
 /// Their number on all ranks.
-int n_inverted(const HexMesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
+int n_inverted(const Mesh& mesh, const std::vector<Eigen::Vector3d>& displacement,
                const Sharing* sharing = nullptr);
 
 /// Nodes of a cell's edge, face, ... that is given by its vertices.
-template<std::size_t N>
-std::array<int, N> pick(const std::array<int, 8>& cell, const std::array<int, N>& vertices) {
-  std::array<int, N> nodes;
-  for (std::size_t v = 0; v < N; ++v) nodes[v] = cell[index(vertices[v])];
-  return nodes;
+template<class Vertices, class Nodes>
+Vertices pick(const Nodes& cell, Vertices vertices) {
+  for (int& v : vertices) v = cell[index(v)];
+  return vertices;
 }
 
 /// The same numbers in ascending order.
@@ -253,13 +249,20 @@ Eigen::AlignedBox3d bounding_box(const Points& points) {
 
 /// Mean of the rest positions of a cell's, a face's, ... nodes.
 template<class Nodes>
-Eigen::Vector3d centre_of(const HexMesh& mesh, const Nodes& nodes) {
+Eigen::Vector3d centre_of(const Mesh& mesh, const Nodes& nodes) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const int node : nodes) centre += mesh.nodes[index(node)] / static_cast<double>(nodes.size());
   return centre;
 }
 
+/// The sides of a face, each from one vertex to the next one around it.
+inline std::vector<std::array<int, 2>> sides_of(const FaceNodes& face) {
+  std::vector<std::array<int, 2>> sides;
+  for (std::size_t v = 0; v < face.size(); ++v) sides.push_back({face[v], face[(v + 1) % face.size()]});
+  return sides;
+}
+
 /// Faces that belong to one cell only.
-std::vector<std::array<int, 4>> boundary_faces(const HexMesh& mesh);
+std::vector<FaceNodes> boundary_faces(const Mesh& mesh);
 
 } // namespace springproof::cases
