@@ -37,7 +37,8 @@ mechanics::HexahedronVertices as_hexahedron(const CellCorners& corners) {
 }
 
 ReferenceCell make_hexahedron() {
-  ReferenceCell cell{CellShape::hexahedron, 8, {cell_edges.begin(), cell_edges.end()}, {}, 1, {}};
+  ReferenceCell cell{
+      CellShape::hexahedron, "hexahedron", "hexahedra", 8, {cell_edges.begin(), cell_edges.end()}, {}, 1, {}};
   for (const auto& face : cell_faces) cell.faces.emplace_back(face.begin(), face.end());
   for (int q = 0; q < 8; ++q) cell.points.push_back(mechanics::gauss_point(q));
   return cell;
@@ -46,6 +47,8 @@ ReferenceCell make_hexahedron() {
 ReferenceCell make_tetrahedron() {
   const double a = (5 - std::sqrt(5.)) / 20, b = 1 - 3 * a; // Keast 1986
   return {CellShape::tetrahedron,
+          "tetrahedron",
+          "tetrahedra",
           4,
           {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}},
           {{0, 3, 2}, {0, 1, 3}, {0, 2, 1}, {1, 2, 3}},

@@ -36,6 +36,7 @@ constexpr std::array<std::size_t, 8> around_cell{0, 1, 3, 2, 4, 5, 7, 6};
 /// Edges and faces of a cell by its vertices. Faces are given as seen from outside, anticlockwise.
 struct ReferenceCell {
   CellShape shape;
+  const char *name, *names; ///< of one and of several, for messages
   std::size_t n_vertices;
   std::vector<std::array<int, 2>> edges;
   std::vector<FaceNodes> faces;

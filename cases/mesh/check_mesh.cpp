@@ -64,10 +64,10 @@ class MeshCheck {
     if (inverted.empty()) return;
     const std::size_t n_shown = std::min<std::size_t>(5, inverted.size());
     refuse_mesh(fmt::format(
-        "{} of {} cells are inverted or degenerate (a corner whose Jacobian is not positive): "
+        "{} of {} {} are inverted or degenerate (a corner whose Jacobian is not positive): "
         "elements {}{}",
-        inverted.size(), mesh_.cells.size(), fmt::join(inverted.data(), inverted.data() + n_shown, " "),
-        inverted.size() > n_shown ? " ..." : ""));
+        inverted.size(), mesh_.cells.size(), shape_.names,
+        fmt::join(inverted.data(), inverted.data() + n_shown, " "), inverted.size() > n_shown ? " ..." : ""));
   }
 
   /// A face is one cell's, or lies between two, which see it from opposite sides.
@@ -92,8 +92,8 @@ class MeshCheck {
     for (std::size_t a = f; a < end; ++a)
       for (std::size_t b = a + 1; b < end; ++b)
         if (sorted(mesh_.cells[faces_[a].cell]) == sorted(mesh_.cells[faces_[b].cell]))
-          refuse_mesh(fmt::format("elements {} and {} are one cell, which must be listed once",
-                                  element(faces_[a].cell), element(faces_[b].cell)));
+          refuse_mesh(fmt::format("elements {} and {} are one {}, which must be listed once",
+                                  element(faces_[a].cell), element(faces_[b].cell), shape_.name));
     std::vector<std::size_t> elements;
     for (std::size_t a = f; a < end; ++a) elements.push_back(element(faces_[a].cell));
     const std::string all = fmt::format("{}", fmt::join(elements, ", "));

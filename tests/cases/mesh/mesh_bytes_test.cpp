@@ -20,7 +20,7 @@ Mesh bar() {
 
 std::string bytes_with_length(std::uint64_t length) {
   std::string bytes = bytes_of_mesh(bar());
-  std::memcpy(bytes.data() + 1, &length, sizeof length); // the nodes' length, after the byte order
+  std::memcpy(bytes.data() + 5, &length, sizeof length); // the nodes' length, after byte order and shape
   return bytes;
 }
 

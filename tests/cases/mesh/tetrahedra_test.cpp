@@ -81,7 +81,7 @@ TEST_CASE("refined tetrahedra fill the body, meet in whole faces and get no wors
   const Mesh fine = refine(mesh), finer = refine(fine), finest = refine(finer);
   CHECK(volume_of(mesh) == Approx(6 * 1.3).epsilon(rounding)); // the shear's determinant is 1.3
   for (const Mesh* refined : {&fine, &finer, &finest}) {
-    CHECK(volume_of(*refined) == Approx(volume_of(mesh)).epsilon(rounding));
+    CHECK(volume_of(*refined) == Approx(volume_of(mesh)).epsilon(1e-12)); // a sum over thousands
     MeshNumbers numbers;
     for (std::size_t n = 0; n < refined->nodes.size(); ++n) numbers.of_nodes.push_back(n);
     for (std::size_t c = 0; c < refined->cells.size(); ++c) numbers.of_cells.push_back(c);
