@@ -42,8 +42,8 @@ struct Solution {
 };
 
 /// A copy of vectors of so many numbers, a row of an array each.
-template<class Number, std::size_t width, class Vectors>
-py::array_t<Number> rows(const Vectors& vectors) {
+template<class Number, class Vectors>
+py::array_t<Number> rows(const Vectors& vectors, std::size_t width) {
   py::array_t<Number> array({vectors.size(), width});
   Number* to = array.mutable_data();
   for (const auto& vector : vectors) to = std::copy_n(vector.data(), width, to);
@@ -326,10 +326,14 @@ PYBIND11_MODULE(_springproof, module) {
       .def_property_readonly("name", [](const cases::Scene& s) { return s.definition.name; })
       .def_property_readonly("description", [](const cases::Scene& s) { return s.definition.description; })
       .def_property_readonly(
-          "nodes", [](const cases::Scene& s) { return rows<double, 3>(s.mesh.nodes); }, "mm, a row per node")
+          "nodes", [](const cases::Scene& s) { return rows<double>(s.mesh.nodes, 3); }, "mm, a row per node")
       .def_property_readonly(
-          "cells", [](const cases::Scene& s) { return rows<int, 8>(s.mesh.cells); },
-          "nodes of each hexahedron: that at (i, j, k) of its corners is number i + 2 j + 4 k")
+          "cells",
+          [](const cases::Scene& s) {
+            return rows<int>(s.mesh.cells, cases::reference_cell(s.mesh.shape).n_vertices);
+          },
+          "nodes of each hexahedron, 8: that at (i, j, k) of its corners is number i + 2 j + 4 k; or of each "
+          "tetrahedron, 4")
       .def_property_readonly(
           "units",
           [](const cases::Scene& s) {

@@ -59,7 +59,8 @@ std::vector<int> kinds_of_links(const cases::Mesh& mesh, const std::vector<msm::
     }
   };
   for (const cases::CellNodes& cell : mesh.cells) {
-    add(cell, cases::cell_edges, 1);
+    add(cell, cases::reference_cell(mesh.shape).edges, 1);
+    if (mesh.shape == cases::CellShape::tetrahedron) continue;
     add(cell, cases::cell_face_diagonals, 2);
     add(cell, cases::cell_internal_diagonals, 3);
   }

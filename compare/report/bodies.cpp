@@ -33,6 +33,7 @@ Lengths lengths(const std::vector<Eigen::Vector3d>& points) {
 struct Surface {
   std::vector<std::size_t> nodes; ///< numbers in the mesh, in the surface's order
   std::vector<long> faces;
+  std::size_t corners = 0; ///< of each face
   Lengths rest;
   bool operator==(const Surface& other) const { return rest == other.rest && faces == other.faces; }
 };
@@ -41,6 +42,7 @@ Surface surface_of(const cases::Mesh& mesh) {
   Surface surface;
   std::vector<Eigen::Vector3d> points;
   std::vector<long> number(mesh.nodes.size(), -1);
+  surface.corners = cases::reference_cell(mesh.shape).faces[0].size();
   for (const cases::FaceNodes& face : cases::boundary_faces(mesh))
     for (const int vertex : face) {
       const auto node = static_cast<std::size_t>(vertex);
@@ -134,8 +136,10 @@ Json views_to_json(const std::vector<BodyView>& views) {
     list.push_back(std::move(entry));
   }
   for (const Surface& surface : surfaces)
-    bodies.push_back(
-        {{"unit_mm", surface.rest.unit_mm}, {"rest", surface.rest.values}, {"faces", surface.faces}});
+    bodies.push_back({{"unit_mm", surface.rest.unit_mm},
+                      {"rest", surface.rest.values},
+                      {"corners", surface.corners},
+                      {"faces", surface.faces}});
   return {{"bodies", bodies}, {"views", list}};
 }
 

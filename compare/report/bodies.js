@@ -16,10 +16,13 @@ function unique_lines(pairs) {
 
 function surface_of(of_body) {
   const triangles = [], edges = [], diagonals = [];
-  for (let f = 0; f < of_body.faces.length; f += 4) {
-    const [a, b, c, d] = of_body.faces.slice(f, f + 4);
-    triangles.push(a, b, c, a, c, d);
-    edges.push([a, b], [b, c], [c, d], [d, a]);
+  const n = of_body.corners; // of a face, 3 or 4
+  for (let f = 0; f < of_body.faces.length; f += n) {
+    const face = of_body.faces.slice(f, f + n), [a, b, c, d] = face;
+    triangles.push(a, b, c);
+    face.forEach((from, i) => edges.push([from, face[(i + 1) % n]]));
+    if (n === 3) continue;
+    triangles.push(a, c, d);
     diagonals.push([a, c], [b, d]);
   }
   return { triangles, edges: unique_lines(edges), diagonals: unique_lines(diagonals) };

@@ -48,8 +48,8 @@ struct BodyView {
 /// @param overlay  overlay of both sides
 BodyView view_of(const Comparison& comparison, const std::string& id, Overlay overlay);
 
-/// The views' geometry for the page's script: {"bodies": [{"unit_mm", "rest": [x, y, z, ...], "faces": [a, b,
-/// c, d, ...]}], "views": [{"id", "largest_scale", "title", "group", "description", "command", "measures",
+/// The views' geometry for the page's script: {"bodies": [{"unit_mm", "rest": [x, y, z, ...], "corners": 4,
+/// "faces": [a, b, c, d, ...]}], "views": [{"id", "largest_scale", "title", "group", "description", "command", "measures",
 /// "failures", "fem": {"body", "unit_mm", "displacement": [...]}, "springs": {...}}]}. Lengths are whole
 /// numbers of a unit that leaves them five digits. Bodies are surfaces alone, and views of the same body
 /// share it. A side without an answer is left out.

@@ -33,10 +33,10 @@ Eigen::Matrix3d oblique_view() {
 }
 
 struct Face {
-  std::array<int, 4> nodes; ///< around the face
-  std::array<Eigen::Vector3d, 4> corners;
-  Eigen::Vector3d normal() const {
-    return (corners[2] - corners[0]).cross(corners[3] - corners[1]).normalized();
+  cases::FaceNodes nodes; ///< around the face
+  cases::Few<Eigen::Vector3d, 4> corners;
+  Eigen::Vector3d normal() const { // of a quadrangle across its diagonals
+    return (corners[2] - corners[0]).cross(corners.back() - corners[1]).normalized();
   }
 };
 
@@ -47,16 +47,17 @@ std::vector<Face> visible_faces(const cases::Mesh& mesh, const std::vector<Eigen
   const Eigen::Vector3d towards = view.row(2);
   std::vector<Face> faces;
   for (const cases::FaceNodes& nodes : cases::boundary_faces(mesh)) {
-    Face face{{}, {}};
-    for (std::size_t v = 0; v < 4; ++v) {
-      face.nodes[v] = nodes[v];
-      face.corners[v] = mesh.nodes[nodes[v]];
-      if (!displacement.empty()) face.corners[v] += displacement[nodes[v]];
+    Face face{nodes, {}};
+    for (const int node : nodes) {
+      face.corners.push_back(mesh.nodes[node]);
+      if (!displacement.empty()) face.corners.back() += displacement[node];
     }
     if (face.normal().dot(towards) > 0) faces.push_back(face);
   }
   const auto depth = [&](const Face& f) {
-    return towards.dot(f.corners[0] + f.corners[1] + f.corners[2] + f.corners[3]);
+    double sum = 0;
+    for (const Eigen::Vector3d& corner : f.corners) sum += towards.dot(corner);
+    return sum; // faces of one mesh have as many corners
   };
   std::stable_sort(faces.begin(), faces.end(),
                    [&](const Face& a, const Face& b) { return depth(a) < depth(b); });
@@ -68,7 +69,7 @@ using Line = std::vector<Eigen::Vector3d>;
 std::vector<Line> closed_polygons(const std::vector<Face>& faces) {
   std::vector<Line> polygons;
   for (const auto& [nodes, corners] : faces)
-    polygons.push_back({corners[0], corners[1], corners[2], corners[3], corners[0]});
+    polygons.emplace_back(corners.begin(), corners.end()).push_back(corners[0]);
   return polygons;
 }
 
@@ -83,8 +84,8 @@ std::vector<Line> edges_of(const std::vector<Face>& faces, Edges wanted) {
   };
   std::map<std::pair<int, int>, Edge> edges;
   for (const Face& face : faces)
-    for (std::size_t v = 0; v < 4; ++v) {
-      const std::size_t next = (v + 1) % 4;
+    for (std::size_t v = 0; v < face.nodes.size(); ++v) {
+      const std::size_t next = (v + 1) % face.nodes.size();
       const auto [edge, is_new] =
           edges.try_emplace(std::minmax(face.nodes[v], face.nodes[next]),
                             Edge{{face.corners[v], face.corners[next]}, face.normal()});
