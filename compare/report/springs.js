@@ -24,10 +24,13 @@ function stiffness_table(springs) {
     ? ` ${one.kind === 0 ? "along" : "in the plane"} ${[...one.axes].join(", ")}` : "");
   const rows = all.map((one) => row([row_head(name(one)), cell(one.n), cell(general(one.stiffness, 5)), text_cell("N/m"),
     has_exponents && cell(general(one.exponent, 4))]));
-  const more = (what, n, value, unit) => rows.push(row([row_head(what), cell(n), cell(value), text_cell(unit), has_exponents && cell("–")]));
-  if (springs.midline_stiffness_N_per_m) more(["midline, between centres of faces ", symbol("k", "m")], 3, general(springs.midline_stiffness_N_per_m, 5), "N/m");
-  for (const midline of springs.cell ? springs.cell.midlines : [])
-    more(`midline along ${midline.axis}`, 1, general(midline.stiffness_N_per_m, 5), "N/m");
+  const more = (what, n, value, unit, exponent = "–") =>
+    rows.push(row([row_head(what), cell(n), cell(value), text_cell(unit), has_exponents && cell(exponent)]));
+  const of_edges = all.find((one) => one.kind === 0); // midlines have the law of the edges beside them
+  const midline = (what, n, stiffness) =>
+    more(what, n, general(stiffness, 5), "N/m", of_edges && has_exponents ? general(of_edges.exponent, 4) : "–");
+  if (springs.midline_stiffness_N_per_m) midline(["midline, between centres of faces ", symbol("k", "m")], 3, springs.midline_stiffness_N_per_m);
+  for (const own of springs.cell ? springs.cell.midlines : []) midline(`midline along ${own.axis}`, 1, own.stiffness_N_per_m);
   if (springs.volume_stiffness_MPa) more(["volume term ", symbol("k", "v")], 1, general(springs.volume_stiffness_MPa, 5), "MPa");
   const tetrahedra = springs.cell ? springs.cell.tetrahedra : [];
   if (tetrahedra.length > 0)

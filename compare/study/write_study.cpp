@@ -116,7 +116,8 @@ std::string mesh_text(const Trial& own) {
   const auto fem = error_of_fem(own);
   if (!own.worst || !own.worst_bar || !fem) return "";
   if (fem->worst - fem->bar > *own.worst + *own.worst_bar)
-    return " The mesh errs more than the springs do: refine it before you judge them.";
+    return " They err less than the finite elements on this mesh do: a finer one shows what error is the "
+           "springs' own.";
   if (fem->worst + fem->bar < *own.worst - *own.worst_bar)
     return " The springs err more than their mesh does.";
   return " The numbers do not tell the springs' error from their mesh's: refine it before you judge them.";
