@@ -140,12 +140,36 @@ std::string designs_with(const std::string& key) {
   return designs_that([&](Design design) { return takes(design, key); });
 }
 
+namespace {
+
+/// Whether materials have exponents of their own.
+bool have_other_exponents(const std::vector<Material>& materials) {
+  if (materials.size() == 1) return false;
+  return std::any_of(materials.begin(), materials.end(), [&](const Material& material) {
+    const auto ratio_of = [](const Material& m) { return std::get<LinearElastic>(m).poissons_ratio; };
+    return !std::holds_alternative<LinearElastic>(material) ||
+           ratio_of(material) != ratio_of(materials.front());
+  });
+}
+
+} // namespace
+
 SpringLaw law_of(const Msm& msm, const Material& material) {
   const DesignLaw law = facts_of(msm.design).law;
   const bool finds_exponents =
       law == DesignLaw::power_log || (law == DesignLaw::fitted_or_hooke && is_isotropic(material) &&
                                       !(msm.poissons_ratio.value_or(poissons_ratio_of(material)) < 0.25));
   return msm.law.value_or(finds_exponents ? SpringLaw::power_log : SpringLaw::hooke);
+}
+
+void settle_law(Msm& msm, const std::vector<Material>& materials, bool has_nodal_forces) {
+  if (msm.law || facts_of(msm.design).law != DesignLaw::fitted_or_hooke) return;
+  const bool gives_way =
+      has_nodal_forces && std::any_of(materials.begin(), materials.end(), [&](const Material& material) {
+        return std::holds_alternative<LinearElastic>(material) &&
+               msm.poissons_ratio.value_or(poissons_ratio_of(material)) > 0.35;
+      });
+  if (gives_way || have_other_exponents(materials)) msm.law = SpringLaw::hooke;
 }
 
 bool is_for(Design design, bool is_isotropic) {

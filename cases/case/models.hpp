@@ -97,4 +97,10 @@ SPRINGPROOF_FIELDS(Msm, design, solver, poissons_ratio, split, beta, stiffness, 
 /// negative and springs that soften carry no large tension.
 SpringLaw law_of(const Msm& msm, const Material& material);
 
+/// Gives a design that may have either law Hooke's springs where its case asks for no law and the exponents
+/// would not do: in a body of materials whose exponents differ, which would be springs of two laws, and under
+/// forces on nodes above nu = 0.35, where springs that soften give way at an edge that is loaded.
+/// @param materials  the body's
+void settle_law(Msm& msm, const std::vector<Material>& materials, bool has_nodal_forces);
+
 } // namespace springproof::cases

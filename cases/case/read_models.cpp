@@ -183,17 +183,8 @@ bool has_exponent(SpringLaw law) {
   return true;
 }
 
-/// Whether materials have exponents of their own.
-bool differ(const std::vector<Material>& materials) {
-  if (materials.size() == 1) return false;
-  return std::any_of(materials.begin(), materials.end(), [&](const Material& material) {
-    const auto ratio_of = [](const Material& m) { return std::get<LinearElastic>(m).poissons_ratio; };
-    return !std::holds_alternative<LinearElastic>(material) ||
-           ratio_of(material) != ratio_of(materials.front());
-  });
-}
-
-void read_law(Table& table, Msm& msm, const std::vector<Material>& materials) {
+void read_law(Table& table, Msm& msm, const Case& definition) {
+  const std::vector<Material> materials = materials_of(definition);
   const DesignLaw law = facts_of(msm.design).law;
   const bool is_fitted =
       is_isotropic(materials.front()) && (law == DesignLaw::fitted || law == DesignLaw::fitted_or_hooke);
@@ -204,8 +195,7 @@ void read_law(Table& table, Msm& msm, const std::vector<Material>& materials) {
     return;
   }
   msm.law = table.optional("law", read_name<SpringLaw>);
-  if (!msm.law && law == DesignLaw::fitted_or_hooke && differ(materials))
-    msm.law = SpringLaw::hooke; // exponents would differ: springs of two laws are assembled
+  settle_law(msm, materials, has_nodal_forces(definition.loads));
   const SpringLaw own = law_of(msm, materials.front());
   table.refuse_unless(has_exponent(own), {"exponent"}, "left out: it belongs to law = \"power_log\"");
   if (own == SpringLaw::hooke) return;
@@ -282,11 +272,9 @@ Msm read_msm(Table& table, const Case& definition) {
   msm.poissons_ratio =
       table.optional("poissons_ratio", Number{"a number above -1 and below 0.5", is_poissons_ratio});
   const auto design = table.optional("design", read_name<Design>);
-  const bool has_nodal_forces =
-      std::any_of(definition.loads.begin(), definition.loads.end(),
-                  [](const Load& load) { return std::holds_alternative<loads::NodalForce>(load.kind); });
-  msm.design =
-      design ? *design : default_design(materials_of(definition), msm.poissons_ratio, has_nodal_forces);
+  msm.design = design ? *design
+                      : default_design(materials_of(definition), msm.poissons_ratio,
+                                       has_nodal_forces(definition.loads));
   for (const std::string& key : keys_of_designs())
     table.refuse_unless(takes(msm.design, key), {key.c_str()},
                         "left out: it belongs to design = " + designs_with(key));
@@ -305,7 +293,7 @@ Msm read_msm(Table& table, const Case& definition) {
   }
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
-  read_law(table, msm, materials_of(definition));
+  read_law(table, msm, definition);
   read_fit(table, msm);
   table.refuse_unless(definition.dynamics || definition.material_dynamics.density, {"mass"}, has_no_mass);
   msm.mass = table.optional("mass", read_name<PointMass>).value_or(msm.mass);

@@ -62,10 +62,8 @@ std::optional<std::array<int, 3>> finer_cells(const Comparison& comparison) {
   constexpr std::size_t most_cells = 40000;
   const cases::Case& definition = comparison.scene.definition;
   const auto* box = std::get_if<cases::Box>(&definition.body);
-  const bool has_nodal_forces = std::any_of(definition.loads.begin(), definition.loads.end(),
-                                            cases::is<cases::loads::NodalForce, cases::Load>);
   const bool is_given = cases::facts_of(definition.msm.design).source == cases::DesignSource::file;
-  if (!box || has_nodal_forces || is_given || 8 * comparison.scene.mesh.cells.size() > most_cells)
+  if (!box || cases::has_nodal_forces(definition.loads) || is_given || 8 * comparison.scene.mesh.cells.size() > most_cells)
     return std::nullopt;
   std::array<int, 3> cells = box->cells;
   for (int& n : cells) n *= 2;

@@ -43,10 +43,13 @@ LoadSetErrors load_set_errors(const std::string& load_set, const std::vector<Com
   return errors;
 }
 
-/// [msm] of the attempt's springs, whose fits are not repeated.
-cases::Msm fitted(const DesignAttempt& attempt) {
+/// [msm] of the attempt's springs, whose fits are not repeated, but for a law that forces on nodes ask for.
+cases::Msm fitted(const DesignAttempt& attempt, const cases::Material& material) {
   cases::Msm options = attempt.options;
-  if (!attempt.design->springs.cells()) return options;
+  cases::settle_law(options, {material}, true);
+  const bool is_other_law =
+      attempt.design->stiffness.exponents && cases::law_of(options, material) == cases::SpringLaw::hooke;
+  if (!attempt.design->springs.cells() || is_other_law) return options;
   const msm::CellStiffness& k = attempt.design->stiffness;
   if (k.midline == 0) {
     options = {};
@@ -149,7 +152,9 @@ void measure_on_cube(std::vector<DesignAttempt>& attempts, const msm::DesignRequ
     if (!a.design) continue;
     std::vector<Comparison> tried;
     for (auto& [scene, fem] : tests) {
-      scene.definition.msm = fitted(a);
+      scene.definition.msm = fitted(a, request.material);
+      a.has_law_of_cube =
+          a.design->stiffness.exponents && scene.definition.msm.law == cases::SpringLaw::hooke;
       tried.push_back(try_springs(scene, fem));
     }
     a.cube = cube_errors(tried);

@@ -67,6 +67,12 @@ void write_cube_errors(std::ostream& out, const std::vector<DesignAttempt>& atte
       write_row_of_errors(out, a.name, errors);
     }
   }
+  for (const DesignAttempt& a : attempts)
+    if (a.has_law_of_cube)
+      write_paragraph(out,
+                      a.name + ": measured with Hooke's springs, which it has above nu = 0.35 in a case of "
+                               "forces on nodes, such as the cube's",
+                      "", "  ");
 }
 
 void write_warnings(std::ostream& out, const msm::DesignResult& design) {
@@ -290,7 +296,10 @@ Json attempt_to_json(const DesignAttempt& attempt) {
     document["stability"] = range_to_json(*attempt.stability);
     document["stability"]["searched"] = range_to_json(msm::search_ends);
   }
-  if (attempt.cube) document["cube"] = cube_to_json(*attempt.cube);
+  if (attempt.cube) {
+    document["cube"] = cube_to_json(*attempt.cube);
+    document["cube"]["has_hooke_springs"] = attempt.has_law_of_cube;
+  }
   return document;
 }
 

@@ -149,6 +149,8 @@ cases::Scene with_design(cases::Scene scene, cases::Design design) {
   other.accepted = own.accepted;
   other.mass = own.mass;
   other.where = own.where;
+  cases::settle_law(other, cases::materials_of(scene.definition),
+                    cases::has_nodal_forces(scene.definition.loads));
   own = other;
   return scene;
 }
