@@ -20,12 +20,26 @@ struct Box {
 };
 SPRINGPROOF_FIELDS(Box, size, cells)
 
-/// An all-hexahedral gmsh mesh (.msh, format 4), or a .geo that gmsh meshes on the fly.
+/// A mesh of hexahedra or of tetrahedra: gmsh's (.msh) or VTK's (.vtu, .vtk), or a .geo that gmsh meshes on
+/// the fly.
 struct MeshFile {
   NamedFile file;
+  double scale = 1;          ///< mm of a unit of the file
+  std::string cell_groups{}; ///< name of the cell data whose values are the groups; empty: found by itself
+};
+SPRINGPROOF_FIELDS(MeshFile, file, scale, cell_groups)
+
+/// What fills a closed surface.
+SPRINGPROOF_ENUMERATION(Fill, tetrahedra, cubes)
+
+/// A body whose closed surface (STL, OBJ, PLY, VTP) is filled with tetrahedra, or with cubes as Voxels.
+struct FilledSurface {
+  NamedFile file;
+  double size; ///< mm, > 0: the tetrahedra's edges, about; the cubes' edges
+  Fill fill = Fill::tetrahedra;
   double scale = 1; ///< mm of a unit of the file
 };
-SPRINGPROOF_FIELDS(MeshFile, file, scale)
+SPRINGPROOF_FIELDS(FilledSurface, file, size, fill, scale)
 
 /// The cubes of a grid whose centres lie inside a closed surface (STL). The grid starts where the surface's
 /// bounding box has its lower corner.
@@ -63,7 +77,7 @@ struct Labels {
 };
 SPRINGPROOF_FIELDS(Labels, file, edge, classes, crop, keep, seed, scale)
 
-using Body = std::variant<Box, MeshFile, Voxels, Labels>;
+using Body = std::variant<Box, MeshFile, Voxels, Labels, FilledSurface>;
 
 /// The class whose cells are rigid, if there is one.
 inline const LabelClass* rigid_class(const Body& body) {

@@ -18,16 +18,30 @@ struct Part {
 };
 SPRINGPROOF_FIELDS(Part, cell_class, lower, upper, point, normal)
 
+/// A plane and how far from it a node still counts as on it.
+struct Plane {
+  Eigen::Vector3d point;  ///< mm
+  Eigen::Vector3d normal; ///< unit length; of either sense
+  double tolerance;       ///< mm, > 0
+};
+SPRINGPROOF_FIELDS(Plane, point, normal, tolerance)
+
 /// Part of a body: "z+ x-" on a box, the name of a physical group on a mesh, the node nearest to a point, a
-/// patch of the surface around a point, or the nodes of a class, in a box or beyond a plane.
+/// patch of the surface around a point or on a plane, or the nodes of a class, in a box or beyond a plane.
 struct Region {
   std::string name;                      ///< as written; for messages if a patch or part; empty for a node
   std::optional<Eigen::Vector3d> near{}; ///< mm
   Where where{};
   std::optional<double> radius{}; ///< mm, > 0: the boundary faces whose centre is at most that far from near
   std::optional<Part> part{};
+  std::optional<double> tolerance{}; ///< mm, > 0: how far the node nearest to `near` may be; absent: 1e-6
+  std::optional<Plane> plane{};      ///< the boundary faces all of whose vertices are on it
+  bool is_in_cell = false;           ///< a measure's: the point `near` itself, which moves with its cell
+
+  bool is_node() const { return near && !radius && !is_in_cell; }
+  bool is_patch() const { return radius || plane; }
 };
-SPRINGPROOF_FIELDS(Region, name, near, where, radius, part)
+SPRINGPROOF_FIELDS(Region, name, near, where, radius, part, tolerance, plane, is_in_cell)
 
 struct Fixed {
   Region region;

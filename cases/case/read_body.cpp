@@ -76,6 +76,38 @@ Labels read_labels(Table& table, const std::string& case_path) {
   return labels;
 }
 
+NamedFile read_surface_name(const Entry& entry, const std::string& case_path) {
+  return read_file_name(entry, {".stl", ".obj", ".ply", ".vtp"},
+                        "a closed surface, .stl, .obj, .ply or .vtp; a mesh of cells is shape = \"mesh\"",
+                        case_path);
+}
+
+MeshFile read_mesh_file(Table& table, const std::string& case_path) {
+  const Entry entry = table.entry("file");
+  MeshFile mesh{
+      read_file_name(entry, {".msh", ".geo", ".vtu", ".vtk"},
+                     "a mesh of gmsh's, .msh or .geo, or of VTK's, .vtu or .vtk; a closed surface in "
+                     "STL, OBJ, PLY or VTP is shape = \"surface\", and meshio converts other meshes "
+                     "(meshio convert FILE body.vtu)",
+                     case_path),
+      read_scale(table)};
+  const std::string ending = mesh.file.path.substr(mesh.file.path.rfind('.'));
+  table.refuse_unless(ending == ".vtu" || ending == ".vtk", {"groups"},
+                      "left out: the groups of a gmsh file are its physical groups");
+  mesh.cell_groups = table.optional("groups", read_text).value_or("");
+  return mesh;
+}
+
+FilledSurface read_filled_surface(Table& table, const std::string& case_path) {
+  FilledSurface surface;
+  surface.file = read_surface_name(table.entry("file"), case_path);
+  surface.fill = table.optional("fill", read_name<Fill>).value_or(Fill::tetrahedra);
+  surface.size =
+      table.required("size", Number{"a number above 0 (mm), the length of a cell's edges", is_positive});
+  surface.scale = read_scale(table);
+  return surface;
+}
+
 /// A modulus, MPa. The limits leave room for its squares and cubes.
 const Number modulus{"a number above 0 (MPa), from 1e-12 to 1e12",
                      [](double value) { return value >= 1e-12 && value <= 1e12; }};
@@ -183,14 +215,12 @@ double read_scale(Table& table) {
 }
 
 Body read_body(Table& table, const std::string& case_path) {
-  const std::string shape = table.entry("shape").word({"box", "mesh", "voxels", "labels"});
+  const std::string shape = table.entry("shape").word({"box", "mesh", "voxels", "labels", "surface"});
   if (shape == "box") return read_box(table);
   if (shape == "labels") return read_labels(table, case_path);
-  const Entry file = table.entry(shape == "mesh" ? "file" : "surface");
-  if (shape == "mesh")
-    return MeshFile{read_file_name(file, {".msh", ".geo"}, "a gmsh file, .msh or .geo", case_path),
-                    read_scale(table)};
-  return Voxels{read_file_name(file, {".stl"}, "a closed surface in STL, .stl", case_path),
+  if (shape == "mesh") return read_mesh_file(table, case_path);
+  if (shape == "surface") return read_filled_surface(table, case_path);
+  return Voxels{read_surface_name(table.entry("surface"), case_path),
                 table.required("edge", Number{"a number above 0 (mm), the edge of a cell", is_positive}),
                 read_scale(table)};
 }

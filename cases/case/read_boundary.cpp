@@ -10,6 +10,7 @@ namespace {
 
 const Vector read_point{"a point of three finite numbers (mm)"},
     read_force{"a force of three finite numbers (N)"};
+const Number read_tolerance{"a number above 0 (mm)", is_positive};
 
 /// Reads "near 5 5 10".
 Eigen::Vector3d read_near_words(const Entry& entry, const std::string& text) {
@@ -46,10 +47,35 @@ std::array<bool, 3> read_components(const Entry& entry) {
   return components;
 }
 
+/// Reads { point = [...], normal = [...], tolerance = 0.1 }: the faces of the surface on a plane.
+Region read_plane(Table& table) {
+  Plane plane;
+  plane.point = table.required("point", read_point);
+  plane.normal = table.required("normal", read_direction);
+  plane.tolerance = table.required("tolerance", read_tolerance);
+  return {fmt::format("plane through ({}) across ({}) to {} mm", fmt::join(plane.point, ", "),
+                      fmt::join(plane.normal, ", "), plane.tolerance),
+          std::nullopt,
+          table.where(),
+          std::nullopt,
+          std::nullopt,
+          std::nullopt,
+          plane};
+}
+
 /// Reads { class = "bone", box = [[...], [...]], beyond = { point = [...], normal = [...] } }.
 Region read_part(const Entry& entry, const Body& body) {
-  const std::string allowed = "the name of a region, or a table with one or more of class, box and beyond";
+  const std::string allowed =
+      "the name of a region, or a table with plane, or with one or more of class, box and beyond";
   Table table(entry, allowed);
+  if (table.has("plane")) {
+    Region on_plane = table.section("plane", read_plane);
+    on_plane.where = entry.where;
+    table.refuse_unless(false, {"class", "box", "beyond"}, "left out beside plane");
+    table.refuse_unknown_keys();
+    return on_plane;
+  }
+  table.know({"plane"});
   Region region{"", std::nullopt, entry.where};
   Part& part = region.part.emplace();
   const Labels* labels = std::get_if<Labels>(&body);
@@ -80,12 +106,13 @@ Region read_part(const Entry& entry, const Body& body) {
 /// when it is read.
 void check_has_area(const Load& load, const Body& body) {
   const Region& region = load.region;
-  const bool has_area = !region.part && (region.near ? region.radius.has_value()
-                                                     : std::holds_alternative<MeshFile>(body) ||
-                                                           words_of(region.name).size() == 1);
+  const bool has_area =
+      region.is_patch() || (!region.part && !region.near &&
+                            (std::holds_alternative<MeshFile>(body) || words_of(region.name).size() == 1));
   if (!has_area)
     refuse(load.region.where,
-           "has no area, and a {} acts on an area; must be one face, such as \"z+\", or near with radius",
+           "has no area, and a {} acts on an area; must be one face, such as \"z+\", near with radius, or a "
+           "plane",
            name_of(load.kind));
 }
 
@@ -210,6 +237,15 @@ Eigen::Vector3d read_direction(const Entry& entry) {
   return direction.stableNormalized();
 }
 
+Region read_nearest(Table& table) {
+  table.refuse_unless(false, {"region", "near", "radius"},
+                      "left out beside nearest: they say the same thing twice");
+  const Entry nearest = table.entry("nearest");
+  Region region{"", read_point(nearest), nearest.where};
+  region.tolerance = table.required("tolerance", read_tolerance);
+  return region;
+}
+
 Region read_region_text(const Entry& entry, const Body& body) {
   const std::string text = read_text(entry);
   const std::vector<std::string> words = words_of(text);
@@ -219,9 +255,11 @@ Region read_region_text(const Entry& entry, const Body& body) {
 }
 
 Region read_region(Table& table, const Body& body) {
+  if (table.has("nearest")) return read_nearest(table);
+  table.refuse_unless(false, {"tolerance"}, "left out without nearest, from whose point it is the distance");
   if (!table.has("near")) {
     const Entry entry = table.entry("region");
-    table.know({"near"});
+    table.know({"near", "nearest"});
     table.refuse_unless(false, {"radius"}, "left out without near, whose patch it is the radius of");
     return entry.node && entry.node->is_table() ? read_part(entry, body) : read_region_text(entry, body);
   }

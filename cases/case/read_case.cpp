@@ -60,14 +60,39 @@ struct MeasureKeys {
   Table& table;
   const Body& body;
 
-  Region node(const char* key) const { return read_region_text(table.entry(key), body); }
+  /// Reads a text, or { nearest = [...], tolerance = 2 }.
+  Region node(const char* key) const {
+    const Entry entry = table.entry(key);
+    if (!entry.node || !entry.node->is_table()) return read_region_text(entry, body);
+    Table row(entry, "the name of a node, or a table with nearest and tolerance");
+    Region region = read_nearest(row);
+    row.refuse_unknown_keys();
+    return region;
+  }
+
+  /// Reads node(), a node by nearest and tolerance, or a point of a cell by at.
+  Region place() const {
+    table.know({"at", "nearest"});
+    if (table.has("nearest")) {
+      table.refuse_unless(false, {"node", "at"}, "left out beside nearest: they say the same thing twice");
+      return read_nearest(table);
+    }
+    table.refuse_unless(false, {"tolerance"},
+                        "left out without nearest, from whose point it is the distance");
+    if (!table.has("at")) return node("node");
+    table.refuse_unless(false, {"node"}, "left out beside at: they say the same thing twice");
+    const Entry at = table.entry("at");
+    Region region{"", Vector{"three finite numbers (mm), a point of the body at rest"}(at), at.where};
+    region.is_in_cell = true;
+    return region;
+  }
 
   void operator()(measures::Coordinate& measure) const {
-    measure.node = node("node");
+    measure.node = place();
     measure.axis = table.required("axis", read_name<Axis>);
   }
   void operator()(measures::Displacement& measure) const {
-    measure.node = node("node");
+    measure.node = place();
     measure.component = table.required("component", read_name<Component>);
   }
   void operator()(measures::Tilt& measure) const {
@@ -107,13 +132,14 @@ struct MeasureKeys {
 
   void read_of_cells(measures::OfCells& measure, const std::vector<std::string>& components) const {
     measure.component = *value_of<TensorComponent>(table.entry("component").word(components));
-    table.know({"statistic", "point", "region", "near", "radius"});
+    table.know({"statistic", "point", "region", "near", "radius", "nearest", "tolerance"});
     if ((measure.statistic = table.optional("statistic", read_name<Statistic>))) {
       table.refuse_unless(false, {"point"}, "left out beside statistic, which is of several cells");
       if (table.has("region") || table.has("near")) measure.region = read_region(table, body);
       return;
     }
-    table.refuse_unless(false, {"region", "near", "radius"}, "left out without statistic");
+    table.refuse_unless(false, {"region", "near", "radius", "nearest", "tolerance"},
+                        "left out without statistic");
     measure.point_where = table.entry("point").where;
     measure.point = table.required("point", Vector{"three finite numbers (mm), a point of the body at rest"});
   }

@@ -30,11 +30,14 @@ void read_materials(Table& root, Case& result);
 /// Reads a region from a text: "z+ x-", "near 5 5 10", or the name of a physical group.
 Region read_region_text(const Entry& entry, const Body& body);
 
+/// Reads nearest = [...], tolerance = 2: the node nearest to a point, if it is that near.
+Region read_nearest(Table& table);
+
 /// Reads a unit vector: "x", "y", "z", or any direction.
 Eigen::Vector3d read_direction(const Entry& entry);
 
-/// Reads a region from a table: `region`, a text or a table of a part, or the node nearest to `near`, or
-/// with `radius` the patch around it.
+/// Reads a region from a table: `region`, a text or a table of a part or a plane; the node at `near`, or with
+/// `radius` the patch around it; or read_nearest().
 Region read_region(Table& table, const Body& body);
 
 /// Reads supports, motions, loads and masses into a case whose body and [dynamics] are read.

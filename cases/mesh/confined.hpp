@@ -15,6 +15,9 @@ struct Limits {
 /// Limits that let a file of so many bytes be read, far below what a file can claim to contain.
 Limits limits_to_read(std::uint64_t file_size);
 
+/// For gmsh to mesh a geometry, however short its text.
+inline constexpr Limits limits_to_mesh{600, 8'000'000'000};
+
 /// Runs a function in a child process that can compute, read files and answer, and nothing else: the kernel
 /// (seccomp) refuses to start programs, to open, create, rename or remove files for writing, and to use the
 /// network. For libraries that interpret a stranger's file as a program, or crash on a broken one.

@@ -99,10 +99,13 @@ Surface read_triangles(const std::string& path, std::vector<std::string>* remark
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) throw std::runtime_error(path + ": " + error.message());
-  Surface surface =
-      surface_from(run_confined([&] { return bytes_of(vtk().read_triangles(path)); }, limits_to_read(size)));
-  std::uint32_t stated = 0; // by a binary file; the same bytes of a text are a number far larger
-  std::ifstream(path, std::ios::binary).seekg(80).read(reinterpret_cast<char*>(&stated), sizeof stated);
+  if (!std::ifstream(path)) throw std::runtime_error(path + ": cannot be read");
+  const VtkFunctions& functions = vtk(); // loaded before the child is confined
+  Surface surface = surface_from(
+      run_confined([&] { return bytes_of(functions.read_triangles(path)); }, limits_to_read(size)));
+  std::uint32_t stated = 0; // by a binary STL; the same bytes of a text are a number far larger
+  if (std::filesystem::path(path).extension() == ".stl")
+    std::ifstream(path, std::ios::binary).seekg(80).read(reinterpret_cast<char*>(&stated), sizeof stated);
   const std::uintmax_t end = 84 + 50 * std::uintmax_t{stated};
   const auto remark = [&](std::uintmax_t n, const char* what) {
     if (remarks && n > 0) remarks->push_back(path + ": " + std::to_string(n) + what);
@@ -128,12 +131,7 @@ CellCloud read_cell_cloud(const std::string& content, const Mesh& mesh) {
 }
 
 TriangleMesh read_surface(const std::string& path, std::vector<std::string>* remarks) {
-  if (std::filesystem::path(path).extension() == ".stl") return with_triangles(read_triangles(path, remarks));
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": cannot be read");
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  return with_triangles(surface_from(
-      run_confined([&] { return bytes_of(vtk().read_polygons(content)); }, limits_to_read(content.size()))));
+  return with_triangles(read_triangles(path, remarks));
 }
 
 TriangleMesh contour(const Picture& picture, const ContourSettings& settings) {

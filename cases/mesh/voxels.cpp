@@ -22,7 +22,7 @@ Eigen::AlignedBox3d box_of(const Surface& surface) {
 
 /// Reads the body's surface, at its scale.
 Surface scaled_surface(const Voxels& voxels, std::vector<std::string>* remarks = nullptr) {
-  Surface surface = read_stl(voxels.file, remarks);
+  Surface surface = read_body_surface(voxels.file, remarks);
   for (auto& triangle : surface)
     for (Vector3d& vertex : triangle) vertex *= voxels.scale;
   return surface;
@@ -106,7 +106,7 @@ void fill(Grid& grid, const Surface& surface) {
 
 } // namespace
 
-Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks) {
+Surface read_body_surface(const NamedFile& file, std::vector<std::string>* remarks) {
   try {
     return read_triangles(file.path, remarks);
   } catch (const std::exception& error) {

@@ -7,10 +7,10 @@
 
 namespace springproof::cases {
 
-/// Reads a surface in STL, text or binary; coordinates are rounded to single precision.
+/// Reads the triangles of a surface in STL, OBJ, PLY (rounded to single precision) or VTP.
 /// @throws InputError if it cannot be read, ends within a triangle, has none or a position that is not finite
 /// @param remarks  as in read_triangles()
-Surface read_stl(const NamedFile& file, std::vector<std::string>* remarks = nullptr);
+Surface read_body_surface(const NamedFile& file, std::vector<std::string>* remarks = nullptr);
 
 /// Whether every edge of a triangle is met by another triangle's that runs the other way: then the surface
 /// has an inside. (VTK's boundary edges have no direction: they miss a triangle that is turned over, and
@@ -21,7 +21,7 @@ std::size_t n_open_edges(const TriangleMesh& surface);
 
 /// Approximate number of cubes that make_voxel_mesh() makes, from the volume within the surface, and its
 /// grid's numbers of cubes along the axes (a million where there are more).
-/// @throws InputError if the surface is no STL
+/// @throws InputError if the surface cannot be read
 struct VoxelCounts {
   double in_body;
   std::array<int, 3> of_grid;
@@ -30,8 +30,9 @@ VoxelCounts count_voxels(const Voxels& voxels);
 
 /// The grid of cubes of a voxel body: a cube belongs to it when its centre is inside the surface (winding
 /// number other than 0, by a ray along z through the centre). All cubes hang together by faces.
-/// @throws InputError, at the place of the surface in the case file, if the surface is no STL or not closed,
-/// if no centre is inside, if the cubes fall into pieces, or if the grid would have over 50 million cubes
+/// @throws InputError, at the place of the surface in the case file, if the surface cannot be read or is not
+/// closed, if no centre is inside, if the cubes fall into pieces, or if the grid would have over 50 million
+/// cubes
 /// @param remarks  as in read_triangles()
 Mesh make_voxel_mesh(const Voxels& voxels, std::vector<std::string>* remarks = nullptr);
 /// The same for a surface that has been read and scaled.

@@ -50,36 +50,6 @@ std::string xml_type(const std::string& content) {
   return quote == std::string::npos ? "" : attributes.substr(begin, quote - begin);
 }
 
-/// A reader for each type of file that has points of its own in it.
-DataSet read_data_set(const std::string& content) {
-  struct Type {
-    const char* name;
-    DataSet (*read)(const std::string&);
-  };
-  static constexpr Type types[] = {{"UnstructuredGrid", read_xml<vtkXMLUnstructuredGridReader>},
-                                   {"PolyData", read_xml<vtkXMLPolyDataReader>},
-                                   {"StructuredGrid", read_xml<vtkXMLStructuredGridReader>},
-                                   {"RectilinearGrid", read_xml<vtkXMLRectilinearGridReader>},
-                                   {"ImageData", read_xml<vtkXMLImageDataReader>}};
-  DataSet data;
-  if (content.rfind("# vtk DataFile", 0) == 0) {
-    data = read_legacy(content);
-  } else {
-    const std::string type = xml_type(content);
-    const auto found = std::find_if(std::begin(types), std::end(types),
-                                    [&](const Type& known) { return known.name == type; });
-    if (type.empty()) refuse("it has neither the first line of a .vtk file nor a tag <VTKFile type=...>");
-    if (found == std::end(types))
-      refuse("its type is " + type +
-             ", must be UnstructuredGrid, PolyData, StructuredGrid, RectilinearGrid or ImageData; of a file "
-             "that names "
-             "others, give one that holds all of them");
-    data = found->read(content);
-  }
-  if (!data || data->GetNumberOfPoints() == 0) refuse("it has no points");
-  return data;
-}
-
 std::vector<Vector3d> vectors_of(vtkDataArray& array) {
   std::vector<Vector3d> vectors(static_cast<std::size_t>(array.GetNumberOfTuples()));
   for (std::size_t p = 0; p < vectors.size(); ++p)
@@ -229,6 +199,35 @@ Interpolation interpolation(vtkUnstructuredGrid& cells, const std::vector<Vector
 }
 
 } // namespace
+
+DataSet read_data_set(const std::string& content) {
+  struct Type {
+    const char* name;
+    DataSet (*read)(const std::string&);
+  };
+  static constexpr Type types[] = {{"UnstructuredGrid", read_xml<vtkXMLUnstructuredGridReader>},
+                                   {"PolyData", read_xml<vtkXMLPolyDataReader>},
+                                   {"StructuredGrid", read_xml<vtkXMLStructuredGridReader>},
+                                   {"RectilinearGrid", read_xml<vtkXMLRectilinearGridReader>},
+                                   {"ImageData", read_xml<vtkXMLImageDataReader>}};
+  DataSet data;
+  if (content.rfind("# vtk DataFile", 0) == 0) {
+    data = read_legacy(content);
+  } else {
+    const std::string type = xml_type(content);
+    const auto found = std::find_if(std::begin(types), std::end(types),
+                                    [&](const Type& known) { return known.name == type; });
+    if (type.empty()) refuse("it has neither the first line of a .vtk file nor a tag <VTKFile type=...>");
+    if (found == std::end(types))
+      refuse("its type is " + type +
+             ", must be UnstructuredGrid, PolyData, StructuredGrid, RectilinearGrid or ImageData; of a file "
+             "that names "
+             "others, give one that holds all of them");
+    data = found->read(content);
+  }
+  if (!data || data->GetNumberOfPoints() == 0) refuse("it has no points");
+  return data;
+}
 
 PointCloud read_points(const std::string& content) {
   return cloud_of(*read_data_set(content));

@@ -6,13 +6,16 @@
 #include <vtkAlgorithm.h>
 #include <vtkCellData.h>
 #include <vtkLogger.h>
+#include <vtkOBJReader.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
+#include <vtkPLYReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSMPTools.h>
 #include <vtkSTLReader.h>
 #include <vtkStaticPointLocator.h>
+#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 namespace springproof::cases {
@@ -44,6 +47,7 @@ class FirstError : public vtkOutputWindow {
     else if (line != std::string::npos)
       message.erase(0, line + 1);
     message.erase(message.find_last_not_of(" \n") + 1);
+    std::replace(message.begin(), message.end(), '\n', ' ');
     return message;
   }
 };
@@ -98,7 +102,20 @@ std::uint32_t stated_triangles(const std::string& path) {
   return count;
 }
 
+/// @return the triangles of a reader of polygons
+template<class Reader>
+Surface read_by(const std::string& path) {
+  const vtkNew<Reader> reader;
+  reader->SetFileName(path.c_str());
+  run(*reader);
+  return triangles_in(*reader->GetOutput());
+}
+
 Surface read_triangles(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending == ".obj") return read_by<vtkOBJReader>(path);
+  if (ending == ".ply") return read_by<vtkPLYReader>(path);
+  if (ending == ".vtp") return read_by<vtkXMLPolyDataReader>(path);
   constexpr std::uintmax_t head = 84, per_triangle = 50; // bytes of a binary file
   vtkNew<vtkSTLReader> reader;
   reader->SetFileName(path.c_str());
@@ -144,8 +161,7 @@ void run_information(vtkAlgorithm& algorithm) {
 }
 
 extern "C" const VtkFunctions springproof_vtk{
-    write_unstructured_grid, write_lines, read_points,   read_cells, read_triangles,
-    nearest_points,          read_volume, read_polygons, contour_of, nearest_in_cells,
-    decimated_surface};
+    write_unstructured_grid, write_lines, read_points, read_cells,       read_mesh_cells,   read_triangles,
+    nearest_points,          read_volume, contour_of,  nearest_in_cells, decimated_surface, distances_from};
 
 } // namespace springproof::cases

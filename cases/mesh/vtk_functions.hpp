@@ -2,6 +2,7 @@
 
 #include "cases/case/solution.hpp"
 #include "cases/mesh/mesh.hpp"
+#include "cases/mesh/mesh_file.hpp"
 #include "cases/mesh/triangle_mesh.hpp"
 
 /// VTK's readers and writers for callers that include none of VTK's headers.
@@ -107,7 +108,11 @@ struct VtkFunctions {
   /// The same with its cells as interpolation to a mesh and back. A node of the mesh may lie outside of all
   /// cells by half the diagonal of the closest.
   CellCloud (*read_cells)(const std::string& content, const Mesh& mesh);
-  /// Reads a file .stl, text or binary, whose coordinates VTK takes in single precision.
+  /// Points and cells of a file .vtu or .vtk. Whole numbers of the cells are their groups: those of the name
+  /// `groups`; without one, those of a name that programs give them, or the only ones.
+  MeshFileContent (*read_mesh)(const std::string& content, const std::string& groups);
+  /// Reads a file .stl, text or binary, .obj or .ply, whose coordinates VTK takes in single precision, or
+  /// .vtp.
   Surface (*read_triangles)(const std::string& path);
   /// The index of the point closest to each position.  @param points  at least one
   std::vector<std::size_t> (*nearest_points)(const std::vector<Eigen::Vector3d>& points,
@@ -115,8 +120,6 @@ struct VtkFunctions {
   /// Reads a file .nii, .nii.gz or .inv3.
   /// @param bytes  what the file can hold; a compressed one is inflated twice, to check it first
   Volume (*read_volume)(const std::string& path, const VolumeBytes& bytes);
-  /// The triangles of a file .vtp's content.
-  Surface (*read_polygons)(const std::string& content);
   /// cases::contour() for as many values as points.
   Surface (*contour)(const Picture&, const ContourSettings&);
   /// The place nearest to each position.  @param mesh  with at least one cell
@@ -124,6 +127,8 @@ struct VtkFunctions {
                                                const std::vector<Eigen::Vector3d>& positions);
   /// cases::decimated()
   Surface (*decimated)(const TriangleMesh&, std::size_t n_triangles);
+  /// How far points are from a surface, mm.  @param surface  with at least one triangle
+  std::vector<double> (*distances)(const TriangleMesh& surface, const std::vector<Eigen::Vector3d>& points);
 };
 
 /// For commands that need VTK after they have solved.
@@ -141,8 +146,8 @@ extern "C" const VtkFunctions springproof_vtk;
 // VTK's readers and filters in a confined process: they crash on some broken files, and allocate whatever a
 // file says that it has.
 
-/// Reads a file .stl, text or binary; coordinates are rounded to single precision. Anything after a binary
-/// file's last triangle, and a triangle that is there twice, are left out.
+/// Reads a file .stl, text or binary, .obj or .ply; coordinates are rounded to single precision. Anything
+/// after a binary STL's last triangle, and a triangle that is there twice, are left out.
 /// @param remarks  receives what was left out, and how many triangles have no area
 /// @throws std::runtime_error with VTK's message; if the file has no triangles or a position that is not
 /// finite
@@ -156,8 +161,7 @@ PointCloud read_point_cloud(const std::string& content);
 /// @throws std::runtime_error likewise; if it has no cells of a volume, or none near a node of the mesh
 CellCloud read_cell_cloud(const std::string& content, const Mesh& mesh);
 
-/// The triangles of a file .stl (text or binary, single precision) or .vtp (polygons are divided). It need
-/// not be closed.
+/// The triangles of read_triangles(), which share their vertices. They need not be closed.
 /// @param remarks  as in read_triangles()
 /// @throws std::runtime_error with VTK's message; if it has no triangles or a position that is not finite
 TriangleMesh read_surface(const std::string& path, std::vector<std::string>* remarks = nullptr);

@@ -12,6 +12,7 @@
 #include <vtkUnstructuredGrid.h>
 
 class vtkAlgorithm;
+class vtkPolyData;
 
 /// What the sources of the shared object springproof_vtk have for each other; VtkFunctions says what its
 /// functions do.
@@ -38,9 +39,16 @@ DataSet read_xml(const std::string& content) {
   return vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
 }
 
+/// The data set of a file's content.  @throws std::runtime_error if it has no points
+DataSet read_data_set(const std::string& content);
+
+/// The triangles of polygons and strips, which are divided.
+Surface triangles_in(vtkPolyData& data);
+
 PointCloud read_points(const std::string& content);
+MeshFileContent read_mesh_cells(const std::string& content, const std::string& groups);
+std::vector<double> distances_from(const TriangleMesh& surface, const std::vector<Eigen::Vector3d>& points);
 CellCloud read_cells(const std::string& content, const Mesh& mesh);
-Surface read_polygons(const std::string& content);
 Surface contour_of(const Picture& picture, const ContourSettings& settings);
 Surface decimated_surface(const TriangleMesh& surface, std::size_t n_triangles);
 std::vector<PlaceInCell> nearest_in_cells(const Mesh& mesh, const std::vector<Eigen::Vector3d>& positions);

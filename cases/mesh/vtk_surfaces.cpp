@@ -1,6 +1,7 @@
 #include "cases/mesh/vtk_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkFlyingEdges3D.h>
@@ -16,7 +17,6 @@
 #include <vtkTriangleFilter.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkWindowedSincPolyDataFilter.h>
-#include <vtkXMLPolyDataReader.h>
 
 namespace springproof::cases {
 
@@ -80,6 +80,18 @@ vtkSmartPointer<vtkPolyData> with_fewer_triangles(vtkPolyData& surface, std::siz
   return decimation->GetOutput();
 }
 
+vtkNew<vtkPolyData> polygons_of(const TriangleMesh& surface) {
+  const vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Vector3d& vertex : surface.vertices) points->InsertNextPoint(vertex.data());
+  const vtkNew<vtkCellArray> triangles;
+  for (const auto& [a, b, c] : surface.triangles) triangles->InsertNextCell({a, b, c});
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(triangles);
+  return data;
+}
+
 double enclosed_volume(const Surface& surface) {
   double volume = 0;
   for (const auto& [a, b, c] : surface) volume += a.dot(b.cross(c)) / 6;
@@ -88,9 +100,7 @@ double enclosed_volume(const Surface& surface) {
 
 } // namespace
 
-Surface read_polygons(const std::string& content) {
-  const DataSet data_set = read_xml<vtkXMLPolyDataReader>(content);
-  vtkPolyData& data = *vtkPolyData::SafeDownCast(data_set);
+Surface triangles_in(vtkPolyData& data) {
   check_points_exist(*data.GetPolys(), data.GetNumberOfPoints());
   check_points_exist(*data.GetStrips(), data.GetNumberOfPoints());
   const vtkNew<vtkTriangleFilter> triangles;
@@ -133,24 +143,34 @@ Surface contour_of(const Picture& picture, const ContourSettings& settings) {
   return triangles;
 }
 
+std::vector<double> distances_from(const TriangleMesh& surface, const std::vector<Vector3d>& points) {
+  const vtkNew<vtkStaticCellLocator> locator;
+  locator->SetDataSet(polygons_of(surface));
+  locator->BuildLocator();
+  const vtkNew<vtkGenericCell> cell;
+  std::vector<double> distances;
+  for (const Vector3d& point : points) {
+    Vector3d nearest;
+    vtkIdType found = -1;
+    int part = 0;
+    double squared = 0;
+    locator->FindClosestPoint(point.data(), nearest.data(), cell, found, part, squared);
+    distances.push_back(std::sqrt(squared));
+  }
+  return distances;
+}
+
 Surface decimated_surface(const TriangleMesh& surface, std::size_t n_triangles) {
-  const vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
   // A flat face needs triangles too, to be able to bend. So the vertices get a field that bends everywhere,
   // which the triangles left must interpolate.
   const vtkNew<vtkFloatArray> bent;
   bent->SetNumberOfComponents(3);
   const Eigen::AlignedBox3d box = bounding_box(surface.vertices);
   for (const Vector3d& vertex : surface.vertices) {
-    points->InsertNextPoint(vertex.data());
     const Vector3d from_centre = vertex - box.center();
     bent->InsertNextTuple(Vector3d(from_centre.cwiseAbs2() / box.diagonal().norm()).data());
   }
-  const vtkNew<vtkCellArray> triangles;
-  for (const auto& [a, b, c] : surface.triangles) triangles->InsertNextCell({a, b, c});
-  const vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(triangles);
+  const vtkNew<vtkPolyData> data = polygons_of(surface);
   data->GetPointData()->SetVectors(bent);
   return triangles_of(*with_fewer_triangles(*data, n_triangles));
 }

@@ -56,7 +56,8 @@ std::vector<int> watched_nodes(const Scene& scene) {
   std::vector<int> nodes;
   for (const Measure& measure : scene.definition.measures)
     for_each_region(measure, [&](const Region& region, bool is_node) {
-      if (is_node) nodes.push_back(select_node(scene.mesh, region));
+      if (!is_node) return;
+      for (const NodeWeight& watched : weights_at(scene.mesh, region)) nodes.push_back(watched.node);
     });
   make_set(nodes);
   return nodes;

@@ -95,15 +95,15 @@ Selection select_on_planes_of(const GridNodes& grid, const Mesh& mesh,
   return selection;
 }
 
-/// The node at the region's point.  @throws InputError if there is none within 1e-6 mm
+/// The node at the region's point.  @throws InputError if there is none within its tolerance, or 1e-6 mm
 Selection select_near(const Mesh& mesh, const Region& region) {
   const Vector3d& point = *region.near;
   const std::size_t nearest = nearest_node(mesh, point);
   const Vector3d found = mesh.nodes[nearest];
-  const double distance = (found - point).norm();
-  if (!(distance <= near_tolerance))
-    refuse(region.where, "no node within {} mm of ({}): the nearest is {:.6g} mm away at ({})",
-           near_tolerance, fmt::join(point, ", "), distance, fmt::join(found, ", "));
+  const double distance = (found - point).norm(), tolerance = region.tolerance.value_or(near_tolerance);
+  if (!(distance <= tolerance))
+    refuse(region.where, "no node within {} mm of ({}): the nearest is {:.6g} mm away at ({})", tolerance,
+           fmt::join(point, ", "), distance, fmt::join(found, ", "));
   return {{static_cast<int>(nearest)}, {}, {}};
 }
 
@@ -146,7 +146,69 @@ void check_is_one_group(const Mesh& mesh, const Region& region) {
          region.name, fmt::join(meant, " or "));
 }
 
+bool is_on_plane(const Mesh& mesh, const FaceNodes& face, const Plane& plane) {
+  return std::all_of(face.begin(), face.end(), [&](int node) {
+    return std::abs((mesh.nodes[index(node)] - plane.point).dot(plane.normal)) <= plane.tolerance;
+  });
+}
+
+/// Where the body ends on both sides of a plane, or how far its nearest node is from a point.
+std::string reason_without_face(const Mesh& mesh, const Region& region) {
+  if (region.plane) {
+    double lowest = INFINITY, highest = -INFINITY;
+    for (const Vector3d& node : mesh.nodes) {
+      const double height = (node - region.plane->point).dot(region.plane->normal);
+      lowest = std::min(lowest, height);
+      highest = std::max(highest, height);
+    }
+    return fmt::format(": the body reaches from {:.6g} to {:.6g} mm beyond the plane along its normal",
+                       lowest, highest);
+  }
+  const Vector3d nearest = mesh.nodes[nearest_node(mesh, *region.near)];
+  return fmt::format(" with its centre there: the node nearest to the point is {:.6g} mm away at ({})",
+                     (nearest - *region.near).norm(), fmt::join(nearest, ", "));
+}
+
+/// Calls action(region) for every region of a definition.
+template<class Action>
+void for_each_region_of(Case& definition, const Action& action) {
+  for (Fixed& fixed : definition.fixed) action(fixed.region);
+  for (Moved& moved : definition.moved) action(moved.region);
+  for (Load& load : definition.loads) action(load.region);
+  for (AddedMass& mass : definition.masses) action(mass.region);
+  for (Measure& measure : definition.measures)
+    for_each_region(measure, [&](Region& region, bool) { action(region); });
+}
+
 } // namespace
+
+void find_nearest_nodes(const Mesh& mesh, Case& definition, std::vector<std::string>& remarks) {
+  for_each_region_of(definition, [&](Region& region) {
+    if (!region.tolerance) return;
+    const Vector3d point = *region.near, found = mesh.nodes[index(select_near(mesh, region).nodes[0])];
+    remarks.push_back(fmt::format("{}: the node nearest to ({}) is {:.6g} mm away at ({:.6g})",
+                                  region.where.key, fmt::join(point, ", "), (found - point).norm(),
+                                  fmt::join(found, ", ")));
+    region.near = found;
+    region.tolerance.reset();
+  });
+}
+
+std::vector<NodeWeight> weights_at(const Mesh& mesh, const Region& region) {
+  if (!region.is_in_cell) return {{select_node(mesh, region), 1}};
+  const Vector3d& point = *region.near;
+  const auto cells = cells_at(mesh, point);
+  if (cells.empty()) {
+    const Vector3d nearest = mesh.nodes[nearest_node(mesh, point)];
+    refuse(region.where,
+           "is [{}], must be a point of the body at rest (mm): the nearest node is {:.6g} mm away at "
+           "({:.6g}), and "
+           "nearest with a tolerance measures there",
+           fmt::join(point, ", "), (nearest - point).norm(), fmt::join(nearest, ", "));
+  }
+  const auto at = place_in_cell(cell_corners(mesh, cells.front()), point);
+  return on_nodes({{CellPoint{cells.front(), *at, Vector3d::Zero()}, 1}}, mesh);
+}
 
 Selection select_on_planes(const Mesh& mesh, const std::vector<std::string>& faces) {
   if (mesh.nodes.rule && mesh.cells.rule) return select_on_planes_of(*mesh.nodes.rule, mesh, faces);
@@ -184,12 +246,16 @@ std::vector<FaceNodes> surface_faces(const Mesh& mesh, const std::vector<Fixed>&
 Selection select_patch(const Mesh& mesh, const std::vector<FaceNodes>& surface, const Region& region) {
   Selection patch;
   for (const auto& face : surface) {
-    if (!((centre_of(mesh, face) - *region.near).norm() <= *region.radius)) continue;
+    if (!(region.plane ? is_on_plane(mesh, face, *region.plane)
+                       : (centre_of(mesh, face) - *region.near).norm() <= *region.radius))
+      continue;
     patch.faces.push_back(face);
     patch.nodes.insert(patch.nodes.end(), face.begin(), face.end());
     for (const auto& side : sides_of(face)) patch.edges.push_back(sorted(side));
   }
-  if (patch.faces.empty()) refuse(region.where, "'{}' has no face of the body's surface", region.name);
+  if (patch.faces.empty())
+    refuse(region.where, "'{}' has no face of the body's surface{}", region.name,
+           reason_without_face(mesh, region));
   make_set(patch.nodes);
   make_set(patch.edges);
   return patch;
@@ -212,7 +278,7 @@ Selection select_between(const Mesh& mesh, const std::vector<bool>& is_selected,
 }
 
 Selection select(const Mesh& mesh, const Region& region) {
-  if (region.near && !region.radius) return select_near(mesh, region);
+  if (region.is_node()) return select_near(mesh, region);
   Selection selection;
   if (region.part) {
     selection = select_part(mesh, region);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cases/case/boundary.hpp"
+#include "cases/case/case.hpp"
 #include "cases/mesh/mesh.hpp"
 
 #include <functional>
@@ -19,10 +19,16 @@ std::vector<int> planes_of_nodes(const Mesh& mesh, const std::vector<Fixed>& sym
 /// Faces of the body's surface: they have one cell, and lie on no plane of symmetry, where the body goes on.
 std::vector<FaceNodes> surface_faces(const Mesh& mesh, const std::vector<Fixed>& symmetry);
 
-/// The faces of the surface whose centre lies in the region's sphere, with their edges and nodes.
+/// The faces of the surface whose centre lies in the region's sphere, or whose vertices lie on its plane,
+/// with their edges and nodes.
 /// @param surface  surface_faces()
-Selection select_patch(const Mesh& mesh, const std::vector<FaceNodes>& surface,
-                       const Region& region);
+Selection select_patch(const Mesh& mesh, const std::vector<FaceNodes>& surface, const Region& region);
+
+/// Puts the node that is meant in the place of each point that a node nearest to it is asked for, in all
+/// regions of a definition. Refined meshes have the node too, and the point may have a nearer one there.
+/// @param remarks  receives how far each is
+/// @throws InputError if the nearest is further away than the region's tolerance
+void find_nearest_nodes(const Mesh& mesh, Case& definition, std::vector<std::string>& remarks);
 
 /// Selected nodes, and the edges and faces between them of some cells or of all.
 Selection select_between(const Mesh& mesh, const std::vector<bool>& is_selected,

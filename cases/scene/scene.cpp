@@ -2,6 +2,7 @@
 
 #include "cases/case/input_file.hpp"
 #include "cases/mesh/cell_point.hpp"
+#include "cases/mesh/fill_surface.hpp"
 #include "cases/mesh/labels.hpp"
 #include "cases/mesh/read_mesh.hpp"
 #include "cases/mesh/voxels.hpp"
@@ -28,7 +29,7 @@ double radians(double degrees) {
 void add_patches(Scene& scene) {
   std::optional<std::vector<FaceNodes>> surface;
   const auto add_patch = [&](const Region& region, bool) {
-    if (!region.radius) return;
+    if (!region.is_patch()) return;
     if (!surface) surface = surface_faces(scene.mesh, scene.definition.symmetry);
     scene.mesh.groups.emplace(region.name, select_patch(scene.mesh, *surface, region));
   };
@@ -171,7 +172,9 @@ Mesh make_mesh(const Body& body, std::vector<std::string>& remarks) {
   if (const Box* box = std::get_if<Box>(&body)) return make_box_mesh(box->size, box->cells);
   if (const Voxels* voxels = std::get_if<Voxels>(&body)) return make_voxel_mesh(*voxels, &remarks);
   if (const Labels* labels = std::get_if<Labels>(&body)) return make_label_mesh(*labels);
-  return read_mesh(std::get<MeshFile>(body));
+  if (const FilledSurface* surface = std::get_if<FilledSurface>(&body))
+    return fill_surface(*surface, remarks);
+  return read_mesh(std::get<MeshFile>(body), &remarks);
 }
 
 /// Whether a support acts on some node of a region, in a component or (norm) in any.
@@ -276,10 +279,12 @@ bool is_rigid(const Scene& scene, std::size_t cell) {
   return rigid != nullptr && scene.mesh.group_of_cell[cell] == rigid->name;
 }
 
-Scene make_scene(const Case& definition) {
+Scene make_scene(const Case& case_as_read) {
   Scene scene;
-  scene.definition = definition;
+  scene.definition = case_as_read;
+  const Case& definition = scene.definition;
   scene.mesh = cut(make_mesh(definition.body, scene.remarks), definition.removed);
+  find_nearest_nodes(scene.mesh, scene.definition, scene.remarks);
   resolve_materials(scene);
   add_patches(scene);
   resolve_supports(scene);
@@ -294,7 +299,7 @@ Scene make_scene(const Case& definition) {
   resolve_network(scene);
   for (const Measure& measure : definition.measures)
     for_each_region(measure, [&](const Region& region, bool is_node) {
-      if (is_node) select_node(scene.mesh, region);
+      if (is_node) weights_at(scene.mesh, region);
     });
   for (const Measure& measure : definition.measures) check_measure(scene, measure);
   if (definition.surface || !definition.landmarks.empty()) check_has_vtk();
@@ -332,14 +337,13 @@ Scene refine(const Scene& scene, int n) {
       continue;
     }
     const Region& region = applied.load.region;
-    const bool stays = is<loads::NodalForce>(applied.load) || applied.load.on() == loads::On::masses ||
-                       (region.near && !region.radius);
+    const bool stays =
+        is<loads::NodalForce>(applied.load) || applied.load.on() == loads::On::masses || region.is_node();
     fine.loads.push_back(
         {stays ? applied.selection : select(fine.mesh, applied.load.region), applied.load, applied.part});
   }
   for (const auto& [selection, added] : scene.masses) {
-    const bool is_a_node = added.region.near && !added.region.radius;
-    fine.masses.push_back({is_a_node ? selection : select(fine.mesh, added.region), added});
+    fine.masses.push_back({added.region.is_node() ? selection : select(fine.mesh, added.region), added});
   }
   return refine(fine, n - 1);
 }

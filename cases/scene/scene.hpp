@@ -57,6 +57,11 @@ Selection select(const Mesh& mesh, const Region& region);
 /// The region's only node.  @throws InputError if it selects none or several
 int select_node(const Mesh& mesh, const Region& region);
 
+/// What a region of a measure has of the nodes' displacements: its only node, or the vertices of the cell
+/// that its point lies in, with their shape functions.
+/// @throws InputError likewise; if the point lies in no cell
+std::vector<NodeWeight> weights_at(const Mesh& mesh, const Region& region);
+
 /// Index in materials_of() of a cell's material.
 int material_of(const Scene& scene, std::size_t cell);
 

@@ -71,8 +71,10 @@ class NodeMeasure {
  public:
   NodeMeasure(const cases::Measure& measure, const cases::Scene& scene) : measure_(measure), scene_(scene) {
     cases::for_each_region(measure, [&](const cases::Region& region, bool) {
-      nodes_.push_back(cases::select_node(scene.mesh, region));
-      rest_.push_back(scene.mesh.nodes[cases::index(nodes_.back())]);
+      places_.push_back(cases::weights_at(scene.mesh, region));
+      nodes_.push_back(places_.back().front().node);
+      rest_.push_back(at_place(places_.back(),
+                               [&](int node) -> Vector3d { return scene.mesh.nodes[cases::index(node)]; }));
     });
     segment_ = std::visit(
         [&](const auto& kind) -> std::optional<TurnedSegment> { return segment_of(kind, rest_, nodes_); },
@@ -85,7 +87,7 @@ class NodeMeasure {
   template<class Displacement>
   double at(const Displacement& displacement) const {
     Points moved;
-    for (const int node : nodes_) moved.push_back(displacement(node));
+    for (const auto& place : places_) moved.push_back(at_place(place, displacement));
     const auto value = [&](const auto& kind) {
       if constexpr (std::decay_t<decltype(kind)>::from == measures::From::nodes)
         return of_nodes(kind, rest_, moved);
@@ -111,8 +113,17 @@ class NodeMeasure {
  private:
   const cases::Measure& measure_;
   const cases::Scene& scene_;
-  std::vector<int> nodes_; ///< in the order in which the measure names them
-  Points rest_;            ///< mm
+  /// @param value  returns a node's vector by its number
+  template<class Value>
+  static Vector3d at_place(const std::vector<cases::NodeWeight>& place, const Value& value) {
+    Vector3d sum = Vector3d::Zero();
+    for (const auto& [node, weight] : place) sum += weight * value(node);
+    return sum;
+  }
+
+  std::vector<std::vector<cases::NodeWeight>> places_; ///< in the order in which the measure names them
+  std::vector<int> nodes_;                             ///< the first of each; of an angle's, the only one
+  Points rest_;                                        ///< mm
   std::optional<TurnedSegment> segment_;
 };
 

@@ -1,6 +1,7 @@
 #include "compare/solve/estimate.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/mesh/fill_surface.hpp"
 #include "cases/mesh/labels.hpp"
 #include "cases/mesh/voxels.hpp"
 #include "compare/solve/progress.hpp"
@@ -109,6 +110,8 @@ double bytes_of_motion(const BodySize& body) {
   return 2 * 24 * (n_bodies * body.n_nodes + dynamics->n_steps() * n_watched);
 }
 
+constexpr double cells_a_node = 5; ///< tetrahedra, in a body of many
+
 } // namespace
 
 BodySize size_of(const cases::Scene& scene) {
@@ -129,6 +132,13 @@ std::optional<BodySize> size_of(const cases::Case& definition) try {
       body.n_cells *= n;
       body.n_nodes *= n + 1.;
     }
+    return body;
+  }
+  if (const auto* surface = std::get_if<cases::FilledSurface>(&definition.body)) {
+    body.outline.mesh.grid.reset();
+    body.n_cells = std::max(1., cases::count_cells(*surface));
+    body.n_nodes = surface->fill == cases::Fill::cubes ? std::pow(std::cbrt(body.n_cells) + 1, 3)
+                                                       : body.n_cells / cells_a_node + 10;
     return body;
   }
   if (const auto* voxels = std::get_if<cases::Voxels>(&definition.body)) {

@@ -17,6 +17,27 @@ TEST_CASE("a body of a mesh file takes the names of groups as regions, and finds
   CHECK(c.fixed[0].region.name == "clamped end");
 }
 
+TEST_CASE("a mesh of VTK's names its groups, and a surface says what fills it") {
+  const TemporaryFolder folder;
+  folder.write("a.vtu", "");
+  folder.write("a.msh", "");
+  folder.write("a.obj", "");
+  const auto read = [&](const std::string& body) {
+    return read_case(folder.write("case.toml", replaced(good_case, box_keys + "\n", body))).body;
+  };
+  CHECK(std::get<MeshFile>(read("shape = 'mesh'\nfile = 'a.vtu'\ngroups = 'zone'\n")).cell_groups == "zone");
+  CHECK_THROWS_WITH(read("shape = 'mesh'\nfile = 'a.msh'\ngroups = 'zone'\n"),
+                    Catch::Contains("body.groups") && Catch::Contains("physical groups"));
+  const auto surface = std::get<FilledSurface>(
+      read("shape = 'surface'\nfile = 'a.obj'\nsize = 2\nscale = 1000\nfill = 'cubes'\n"));
+  CHECK(surface.size == 2);
+  CHECK(surface.scale == 1000);
+  CHECK(surface.fill == Fill::cubes);
+  CHECK(std::get<FilledSurface>(read("shape = 'surface'\nfile = 'a.obj'\nsize = 2\n")).fill ==
+        Fill::tetrahedra);
+  CHECK_THROWS_WITH(read("shape = 'surface'\nfile = 'a.obj'\n"), Catch::Contains("body.size"));
+}
+
 TEST_CASE("a body of voxels is read, and finds its surface beside the case") {
   const TemporaryFolder folder;
   folder.write("body.stl", "");
@@ -108,12 +129,15 @@ TEST_CASE("a mistake in [body] is refused where it is made") {
   refused(cells, "cells = [10, 0, 10]", 7, "body.cells", {"above 0"});
   refused(cells, "cells = [100000, 100000, 10]", 7, "body.cells", {"fewer"});
   refused(box_keys, "shape = 'mesh'\nfile = 'no.msh'", 6, "body.file", {"is \"no.msh\"", "there is no"});
-  refused(box_keys, "shape = 'mesh'\nfile = 'bar.stl'", 6, "body.file", {".msh or .geo"});
+  refused(box_keys, "shape = 'mesh'\nfile = 'bar.stl'", 6, "body.file",
+          {".msh or .geo", ".vtu or .vtk", "shape = \"surface\"", "meshio convert"});
+  refused(box_keys, "shape = 'mesh'\nfile = 'bar.inp'", 6, "body.file", {"meshio convert"});
+  refused(box_keys, "shape = 'surface'\nfile = 'bar.msh'\nsize = 1", 6, "body.file", {"shape = \"mesh\""});
   refused("shape = 'box'", "shape = 'box'\nfile = 'a.msh'", 6, "body.file", {"is not a key here"});
   refused(box_keys, "shape = 'voxels'\nsurface = 'no.stl'\nedge = 1", 6, "body.surface",
           {"is \"no.stl\"", "there is no"});
-  refused(box_keys, "shape = 'voxels'\nsurface = 'no.obj'\nedge = 1", 6, "body.surface",
-          {"a closed surface in STL"});
+  refused(box_keys, "shape = 'voxels'\nsurface = 'no.off'\nedge = 1", 6, "body.surface",
+          {"a closed surface, .stl, .obj, .ply or .vtp"});
 }
 
 TEST_CASE("pieces that are removed from a body are read") {

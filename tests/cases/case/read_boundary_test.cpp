@@ -37,6 +37,30 @@ TEST_CASE("a patch around a point is read") {
   CHECK(c.loads[0].region.radius == 2.5);
 }
 
+TEST_CASE("the node nearest to a point, and a patch on a plane, are read") {
+  const Case nearest = read_text(replaced(good_case, "region = 'z+'", "nearest = [5, 5, 11]\ntolerance = 2"));
+  CHECK(nearest.loads[0].region.near == Eigen::Vector3d(5, 5, 11));
+  CHECK(nearest.loads[0].region.tolerance == 2);
+  const Case plane = read_text(replaced(
+      good_case, "region = 'z+'\nkind = 'nodal_force'",
+      "region = { plane = { point = [0, 0, 10], normal = [0, 0, 2], tolerance = 0.1 } }\nkind = 'traction'"));
+  REQUIRE(plane.loads[0].region.plane);
+  CHECK(plane.loads[0].region.plane->normal == Eigen::Vector3d(0, 0, 1));
+  CHECK(plane.loads[0].region.is_patch());
+  const auto refused = mistakes_in(good_case);
+  refused("region = 'z-'", "nearest = [0, 0, 0]", 12, "fixed[0].tolerance", {"is missing"});
+  refused("region = 'z-'", "nearest = [0, 0, 0]\ntolerance = 0", 14, "fixed[0].tolerance", {"above 0"});
+  refused("region = 'z-'", "region = 'z-'\ntolerance = 1", 14, "fixed[0].tolerance", {"without nearest"});
+  refused("region = 'z-'", "region = 'z-'\nnearest = [0, 0, 0]\ntolerance = 1", 13, "fixed[0].region",
+          {"left out beside nearest"});
+  refused("region = 'z-'", "region = { plane = { point = [0, 0, 0], normal = 'x' } }", 13,
+          "fixed[0].region.plane.tolerance", {"is missing"});
+  refused(
+      "region = 'z-'",
+      "region = { plane = { point = [0, 0, 0], normal = 'x', tolerance = 1 }, box = [[0, 0, 0], [1, 1, 1]] }",
+      13, "fixed[0].region.box", {"left out beside plane"});
+}
+
 TEST_CASE("a part of the body in a box or beyond a plane is read as a region") {
   const Case c = read_text(replaced(good_case, "region = 'z-'",
                                     "region = { box = [[0, 0, 0], [1, 2, 3]], beyond = { point = [1, 1, 1], "

@@ -31,6 +31,25 @@ TEST_CASE("a mistake in [[measure]] is refused where it is made") {
           {"another node than centre"});
 }
 
+TEST_CASE("a displacement is measured at a node, at the node nearest to a point, or at a point of a cell") {
+  const std::string tilt = "kind = 'tilt'\ntop = 'z+ x- y-'\nbottom = 'z- x- y-'\ntoward = 'x'\n";
+  const auto node_of = [&](const std::string& keys) {
+    const Case c = read_text(replaced(good_case, tilt, "kind = 'displacement'\ncomponent = 'x'\n" + keys));
+    return std::get<measures::Displacement>(c.measures[0].kind).node;
+  };
+  CHECK(node_of("at = [1, 2, 3]\n").is_in_cell);
+  CHECK(node_of("at = [1, 2, 3]\n").near == Eigen::Vector3d(1, 2, 3));
+  CHECK(node_of("nearest = [1, 2, 3]\ntolerance = 0.5\n").tolerance == 0.5);
+  CHECK(node_of("node = { nearest = [1, 2, 3], tolerance = 0.5 }\n").tolerance == 0.5);
+  const auto refused = mistakes_in(good_case);
+  refused(tilt, "kind = 'displacement'\ncomponent = 'x'\nat = [1, 2, 3]\nnode = 'z+'\n", 31,
+          "measure[0].node", {"left out beside at"});
+  refused(tilt, "kind = 'displacement'\ncomponent = 'x'\nnode = { at = [1, 2, 3] }\n", 30,
+          "measure[0].node.nearest", {"is missing"});
+  refused(tilt, replaced(tilt, "top = 'z+ x- y-'", "at = [1, 2, 3]\ntop = 'z+ x- y-'"), 29, "measure[0].at",
+          {"is not a key here"});
+}
+
 TEST_CASE("a mistake in a measure of forces, stress or strain is refused where it is made") {
   const std::string measure = "kind = 'tilt'\ntop = 'z+ x- y-'\nbottom = 'z- x- y-'\ntoward = 'x'\n";
   const auto refused = mistakes_in(good_case);

@@ -67,16 +67,16 @@ std::string as_binary(const Surface& surface) {
 
 TEST_CASE("a surface is the same from text and from a binary file") {
   const TemporaryFolder folder;
-  const Surface text = read_stl({folder.write("text.stl", tetrahedron)});
+  const Surface text = read_body_surface({folder.write("text.stl", tetrahedron)});
   REQUIRE(text.size() == 4);
   CHECK(text[1][2] == Vector3d(0, 0, 1));
-  CHECK(read_stl({folder.write("binary.stl", as_binary(text))}) == text);
+  CHECK(read_body_surface({folder.write("binary.stl", as_binary(text))}) == text);
   CHECK(n_open_edges(joined(text)) == 0);
 }
 
 TEST_CASE("a surface with a facet missing, turned or doubled is not closed") {
   const TemporaryFolder folder;
-  const Surface closed = read_stl({folder.write("a.stl", tetrahedron)});
+  const Surface closed = read_body_surface({folder.write("a.stl", tetrahedron)});
   Surface open = closed, turned = closed, doubled = closed;
   open.pop_back();
   std::swap(turned[2][0], turned[2][1]);
@@ -88,7 +88,7 @@ TEST_CASE("a surface with a facet missing, turned or doubled is not closed") {
 
 TEST_CASE("what is no STL, is cut short or has a position that is not finite is refused with its name") {
   const TemporaryFolder folder;
-  const std::string binary = as_binary(read_stl({folder.write("good.stl", tetrahedron)}));
+  const std::string binary = as_binary(read_body_surface({folder.write("good.stl", tetrahedron)}));
   const std::vector<std::pair<std::string, std::string>> broken{
       {"", "Premature EOF"},
       {"solid nothing\nendsolid\n", "has no triangles"},
@@ -106,7 +106,7 @@ TEST_CASE("what is no STL, is cut short or has a position that is not finite is 
   for (const auto& [text, says] : broken) {
     CAPTURE(says);
     const std::string path = folder.write("bad.stl", text);
-    CHECK_THROWS_WITH(read_stl({path}), Catch::Contains("bad.stl") && Catch::Contains(says));
+    CHECK_THROWS_WITH(read_body_surface({path}), Catch::Contains("bad.stl") && Catch::Contains(says));
   }
-  CHECK_THROWS_AS(read_stl({(folder.path / "none.stl").string()}), InputError);
+  CHECK_THROWS_AS(read_body_surface({(folder.path / "none.stl").string()}), InputError);
 }

@@ -1,5 +1,6 @@
 #include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/read_mesh.hpp"
+#include "tests/support/mesh_volume.hpp"
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -26,12 +27,6 @@ Mesh box_of_tetrahedra() {
     for (const auto& [a, b] : {std::pair(1, 3), {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}})
       mesh.cells.stored().push_back(pick(cube, CellNodes{0, a, b, 7}));
   return mesh;
-}
-
-double volume_of(const Mesh& mesh) {
-  double volume = 0;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) volume += cell_volume(cell_corners(mesh, c));
-  return volume;
 }
 
 /// Volume over the cube of the longest edge.

@@ -140,7 +140,7 @@ TEST_CASE(
   CHECK_THAT(of_text(body + needle + point), Catch::Contains("3 triangles without an area bound nothing"));
 
   const TemporaryFolder folder;
-  const Surface surface = read_stl({folder.write("a.stl", "solid\n" + body + "endsolid\n")});
+  const Surface surface = read_body_surface({folder.write("a.stl", "solid\n" + body + "endsolid\n")});
   std::string binary(80, ' ');
   const auto append = [&](auto value) { binary.append(reinterpret_cast<const char*>(&value), sizeof value); };
   append(static_cast<std::uint32_t>(surface.size()));
