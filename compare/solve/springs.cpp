@@ -1,5 +1,6 @@
 #include "compare/solve/springs.hpp"
 
+#include "cases/scene/network.hpp"
 #include "cases/scene/regions.hpp"
 #include "cases/scene/thickness.hpp"
 #include "compare/solve/solve.hpp"
@@ -176,6 +177,7 @@ msm::DesignResult design_for(const cases::Scene& scene) {
     msm::DesignResult network;
     network.springs = scene.network;
     network.warnings = cases::doubts_of(scene.network, [&](int n) { return Vector3d(scene.mesh.nodes[n]); });
+    for (const std::string& part : cases::loose_parts_of(scene)) network.warnings.push_back(part);
     return network;
   }
   const DesignedCells cells = design_cells(scene);

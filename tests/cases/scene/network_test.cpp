@@ -1,10 +1,11 @@
-#include "cases/scene/scene.hpp"
+#include "cases/scene/network.hpp"
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 using namespace springproof;
 
-using cases::read_network;
+using namespace cases;
 
 TEST_CASE("a network's lines are node, node, stiffness, and perhaps rest length and exponent") {
   const auto springs =
@@ -65,4 +66,24 @@ TEST_CASE("springs that join the same nodes, and rest lengths far from the dista
   REQUIRE(far.size() == 1);
   CHECK_THAT(far[0], Catch::StartsWith("2 of 3 springs have a rest length more than 10 %") &&
                          Catch::Contains("nodes 1 and 3 0.5 mm for 2 mm"));
+}
+
+TEST_CASE("nodes without springs, and pieces that hang on nothing, are named") {
+  Case definition;
+  definition.body = Box{{3, 1, 1}, {3, 1, 1}}; // nodes 0 to 15, those of x = 0 are 0, 4, 8 and 12
+  definition.fixed.push_back({{"x-"}, {true, true, true}});
+  Scene scene = make_scene(definition);
+  const auto parts = [&](const std::string& springs) {
+    scene.network = read_network(springs, "n.csv", 16);
+    return loose_parts_of(scene);
+  };
+  std::string all;
+  for (int n = 1; n < 16; ++n) all += fmt::format("{},{},1\n", n - 1, n);
+  CHECK(parts(all).empty());
+  const auto some = parts("0,1,1\n2,3,1\n6,7,1\n7,3,1\n10,11,1\n");
+  REQUIRE(some.size() == 3);
+  CHECK(some[0] == "5 of 16 nodes have no spring and no support: 5, 9, 13, 14, 15");
+  CHECK(some[1] ==
+        "a piece of 4 nodes and its springs hangs on nothing: no support acts on nodes 2, 3, 6, 7");
+  CHECK(some[2] == "a piece of 2 nodes and its springs hangs on nothing: no support acts on nodes 10, 11");
 }
