@@ -77,8 +77,8 @@ struct DesignAttempt {
   std::string refusal{};                          ///< why there is no design
   std::optional<msm::StabilityRange> stability{}; ///< stable range of a cubical cell's lattice
   std::optional<CubeErrors> cube{};               ///< when measured
-  bool has_law_of_cube = false; ///< measured with Hooke's springs, as a case of forces on nodes has them
   cases::Msm options{};                           ///< what was asked for
+  bool has_law_of_cube = false; ///< measured with Hooke's springs, as a case of forces on nodes has them
 };
 
 /// A design that was found, with its lattice's stability, which is known of cubes of four stiffnesses.
