@@ -89,28 +89,31 @@ SPRINGPROOF_INLINE Real volume(const Vec<Real> (&x)[8], const Vec<Real> (&g)[8])
   return sum * Real(1.0 / 3);
 }
 
-/// Vectors between the centres of opposite faces, along x, y and z: means of four edges.
+/// Four times the vectors between the centres of opposite faces, along x, y and z: sums of four edges.
 template<class Real>
-SPRINGPROOF_INLINE void midlines(const Vec<Real> (&x)[8], Vec<Real> (&d)[3]) {
-  const Real quarter(0.25);
+SPRINGPROOF_INLINE void fourfold_midlines(const Vec<Real> (&x)[8], Vec<Real> (&d)[3]) {
   const Vec<Real> low_front = x[0] + x[1], low_back = x[2] + x[3], high_front = x[4] + x[5],
                   high_back = x[6] + x[7];
-  d[0] = quarter * ((x[1] - x[0]) + (x[3] - x[2]) + ((x[5] - x[4]) + (x[7] - x[6])));
-  d[1] = quarter * ((low_back - low_front) + (high_back - high_front));
-  d[2] = quarter * ((high_front + high_back) - (low_front + low_back));
+  d[0] = (x[1] - x[0]) + (x[3] - x[2]) + ((x[5] - x[4]) + (x[7] - x[6]));
+  d[1] = (low_back - low_front) + (high_back - high_front);
+  d[2] = (high_front + high_back) - (low_front + low_back);
+}
+/// |d|² of such a vector's midline.
+template<class Real>
+SPRINGPROOF_INLINE Real squared_midline(const Vec<Real>& fourfold) {
+  return Real(1. / 16) * squared_length(fourfold);
 }
 
-/// f[v] += what forces on the face at +a, and their opposites on the one at -a, give to a vertex.
+/// f[v] += what quarters of forces on the face at +a, and their opposites on the one at -a, give to a vertex.
 template<class Real>
-SPRINGPROOF_INLINE void add_from_midlines(const Vec<Real> (&forces)[3], Vec<Real> (&f)[8]) {
-  const Real quarter(0.25);
-  const Vec<Real> x = quarter * forces[0], y = quarter * forces[1], z = quarter * forces[2];
-  const Vec<Real> corner[4] = {Vec<Real>{0, 0, 0} - x - y, x - y, y - x, x + y};
-#pragma GCC unroll 4
-  for (int v = 0; v < 4; ++v) {
-    f[v] = f[v] + (corner[v] - z);
-    f[v + 4] = f[v + 4] + (corner[v] + z);
-  }
+SPRINGPROOF_INLINE void add_from_midlines(const Vec<Real> (&quarters)[3], Vec<Real> (&f)[8]) {
+  const Vec<Real>&x = quarters[0], &y = quarters[1], &z = quarters[2];
+  const Vec<Real> sum = x + y, difference = x - y, nearer = sum + z, farther = sum - z;
+  const Vec<Real> up = difference + z, down = difference - z, none{0, 0, 0};
+  const Vec<Real> of_vertices[8] = {none - nearer,  down, none - up,   farther,
+                                    none - farther, up,   none - down, nearer};
+#pragma GCC unroll 8
+  for (int v = 0; v < 8; ++v) f[v] = f[v] + of_vertices[v];
 }
 
 /// Nodes of the plane's rows that have cells above them, in whole packs: the last row has none.
@@ -167,16 +170,35 @@ __attribute__((noinline)) void cell_force(const Springs<Real>& s, const Slab<Rea
       for (int v = 0; v < 8; ++v) g[v] = pressure * g[v];
       if constexpr (has_midlines) {
         Vec<Real> d[3];
-        midlines(x, d);
+        fourfold_midlines(x, d);
 #pragma GCC unroll 3
         for (int a = 0; a < 3; ++a)
-          d[a] = laws.spring[edge_along[a]].transverse(squared_length(d[a]), cells.midline[a][i]) * d[a];
+          d[a] = (Real(1. / 16) *
+                  laws.spring[edge_along[a]].transverse(squared_midline(d[a]), cells.midline[a][i])) *
+                 d[a];
         add_from_midlines(d, g);
       }
       store_vertices(b, i, g);
     }
   };
   sweep_cells(s, slab, action, force);
+}
+
+/// Quarters of the forces of midlines along a motion: their tangents' products with it, negative.
+/// @param x, y  the cell's positions and the motion of its vertices
+template<Clamp clamp, class Real, class Laws>
+SPRINGPROOF_INLINE void midline_products(const Cells<Real>& cells, const Laws& laws, std::ptrdiff_t i,
+                                         const Vec<Real> (&x)[8], const Vec<Real> (&y)[8],
+                                         Vec<Real> (&c)[3]) {
+  Vec<Real> d[3];
+  fourfold_midlines(x, d);
+  fourfold_midlines(y, c);
+#pragma GCC unroll 3
+  for (int a = 0; a < 3; ++a) {
+    const auto [transverse, along] =
+        laws.spring[edge_along[a]].template tangent<clamp>(squared_midline(d[a]), cells.midline[a][i]);
+    c[a] = (Real(-1. / 256) * along * dot(d[a], c[a])) * d[a] - (Real(1. / 16) * transverse) * c[a];
+  }
 }
 
 /// dp/dV g (g . v) + p (change of g along v), the second part only where the tangent is not clamped, and the
@@ -186,6 +208,23 @@ __attribute__((noinline)) void cell_product(const Springs<Real>& s, const Slab<R
                                             const Real* displacement, const Real* direction, Real* product) {
   const auto action = [&](std::ptrdiff_t first, std::ptrdiff_t length, int k, Real* b) {
     const Cells<Real> cells = cells_from(s, displacement, first, k), w = cells_from(s, direction, first, k);
+    // Midlines beside the volume take more registers than there are: in double precision they come first.
+    constexpr bool come_first = has_midlines && sizeof(Real) == 8;
+    alignas(64) Real pulls[come_first ? 9 * block : 1];
+    if constexpr (come_first)
+#pragma GCC ivdep
+      for (std::ptrdiff_t i = 0; i < length; ++i) {
+        Vec<Real> x[8], y[8], c[3];
+        cells.positions(i, x);
+        w.read(i, y);
+        midline_products<clamp>(cells, laws, i, x, y, c);
+#pragma GCC unroll 3
+        for (int a = 0; a < 3; ++a) {
+          pulls[3 * a * block + i] = c[a].x;
+          pulls[(3 * a + 1) * block + i] = c[a].y;
+          pulls[(3 * a + 2) * block + i] = c[a].z;
+        }
+      }
 #pragma GCC ivdep
     for (std::ptrdiff_t i = 0; i < length; ++i) {
       Vec<Real> x[8], g[8], y[8], f[8];
@@ -206,15 +245,11 @@ __attribute__((noinline)) void cell_product(const Springs<Real>& s, const Slab<R
           f[a] = change * g[a];
       }
       if constexpr (has_midlines) {
-        Vec<Real> d[3], c[3];
-        midlines(x, d);
-        midlines(y, c);
+        Vec<Real> c[3];
+        if constexpr (!come_first) midline_products<clamp>(cells, laws, i, x, y, c);
 #pragma GCC unroll 3
-        for (int a = 0; a < 3; ++a) {
-          const auto [transverse, along] =
-              laws.spring[edge_along[a]].template tangent<clamp>(squared_length(d[a]), cells.midline[a][i]);
-          c[a] = (-along * dot(d[a], c[a])) * d[a] - transverse * c[a];
-        }
+        for (int a = 0; a < 3 && come_first; ++a)
+          c[a] = {pulls[3 * a * block + i], pulls[(3 * a + 1) * block + i], pulls[(3 * a + 2) * block + i]};
         add_from_midlines(c, f);
       }
       store_vertices(b, i, f);

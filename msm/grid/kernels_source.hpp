@@ -104,10 +104,10 @@ double energy_with(const Springs<Real>& s, const Laws& laws, int first, int last
       sum += laws.volume.twice_energy(volume(x, g), s.counted[i] * cells.stiffness[i]);
       if (!s.midline[0]) continue;
       Vec<Real> d[3];
-      midlines(x, d);
+      fourfold_midlines(x, d);
       for (int a = 0; a < 3; ++a)
-        sum +=
-            laws.spring[edge_along[a]].twice_energy(squared_length(d[a]), s.counted[i] * cells.midline[a][i]);
+        sum += laws.spring[edge_along[a]].twice_energy(squared_midline(d[a]),
+                                                       s.counted[i] * cells.midline[a][i]);
     }
     total += 0.5 * static_cast<double>(sum);
   }
@@ -182,11 +182,11 @@ void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Laws& l
       const Real slope = laws.volume.template slope<clamp>(volume(x, g), cells.stiffness[i]);
       Real of_midlines[6] = {};
       Vec<Real> d[3];
-      midlines(x, d);
+      fourfold_midlines(x, d);
       for (int a = 0; a < 3 && s.midline[0]; ++a) {
-        const auto [t, along] = laws.spring[edge_along[a]].template tangent<clamp>(squared_length(d[a]),
+        const auto [t, along] = laws.spring[edge_along[a]].template tangent<clamp>(squared_midline(d[a]),
                                                                                    cells.midline[a][i] / 16);
-        add_block(t, along, d[a], of_midlines);
+        add_block(t, along / 16, d[a], of_midlines);
       }
       for (int v = 0; v < 8; ++v) {
         Real sum[6];

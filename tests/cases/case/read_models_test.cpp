@@ -216,6 +216,29 @@ TEST_CASE(
   CHECK(read("exponent = -1").exponent == std::array{-1., -1., -1.});
 }
 
+TEST_CASE(
+    "midlines are Hooke's in materials of several exponents, and under forces on nodes above nu = 0.35") {
+  const auto law = [](const std::vector<Material>& materials, bool has_nodal_forces) {
+    Msm msm;
+    msm.design = Design::midline;
+    settle_law(msm, materials, has_nodal_forces);
+    return law_of(msm, materials.front());
+  };
+  const LinearElastic at_most{0.3, 0.35}, above{0.3, 0.4};
+  for (const bool has_nodal_forces : {false, true}) {
+    CHECK(law({at_most}, has_nodal_forces) == SpringLaw::power_log);
+    CHECK(law({at_most, above}, has_nodal_forces) == SpringLaw::hooke);
+    CHECK(law({above}, has_nodal_forces) == (has_nodal_forces ? SpringLaw::hooke : SpringLaw::power_log));
+    CHECK(law({soft}, has_nodal_forces) == SpringLaw::power_log);
+  }
+  CHECK(law({LinearElastic{1, 0.4}, LinearElastic{2, 0.4}}, false) == SpringLaw::power_log);
+  Msm asked;
+  asked.design = Design::midline;
+  asked.law = SpringLaw::power_log;
+  settle_law(asked, {above}, true);
+  CHECK(asked.law == SpringLaw::power_log);
+}
+
 TEST_CASE("stiffnesses are of kinds of springs, of kinds along every axis, or of all springs") {
   const auto read = [](const std::string& lines) {
     const std::string msm = "design = 'moduli'\npoissons_ratio = 0.3\nsplit = 0.8\n";

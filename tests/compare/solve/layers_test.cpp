@@ -1,4 +1,5 @@
 #include "compare/gates/comparison.hpp"
+#include "compare/solve/springs.hpp"
 
 #include <catch2/catch.hpp>
 #include <limits>
@@ -64,4 +65,17 @@ TEST_CASE("springs know the layers' materials: twice as stiff above is half the 
   CHECK(stretch(0.2, 20) < stretch(0.2, 0.8));
   CHECK(stretch(0.2, 20) >
         0.7 * stretch(0.2, 0.2)); // three of four cells are as before, hindered at one side
+}
+
+TEST_CASE("a ranking gives midlines the law that a case file gives them: Hooke's in layers of two exponents") {
+  cases::Case two = column(1, 2);
+  two.material = cases::LinearElastic{1, 0.3};
+  two.region_materials.front().material = cases::LinearElastic{2, 0.4};
+  const auto law = [](const cases::Case& definition) {
+    const cases::Scene scene = with_design(cases::make_scene(definition), cases::Design::midline);
+    return design_for(scene).stiffness.exponents;
+  };
+  CHECK_FALSE(law(two));
+  two.region_materials.front().material = cases::LinearElastic{2, 0.3};
+  CHECK(law(two));
 }

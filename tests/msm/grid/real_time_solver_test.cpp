@@ -8,7 +8,8 @@ using namespace springproof;
 
 namespace moving_bodies {
 
-TEST_CASE("in real time a step's equation is solved in single precision: holes, damping, pulls, any units",
+TEST_CASE("in real time a step's equation is solved in single precision: holes, damping, pulls, midlines, "
+          "any units",
           "[verification]") {
   const cases::MaterialDynamics damped{1000., 3, 0.02}, undamped{1000., 3, 0};
   for (const bool has_holes : {false, true})
@@ -18,7 +19,9 @@ TEST_CASE("in real time a step's equation is solved in single precision: holes, 
           CAPTURE(has_holes, material.stiffness_damping, unit, stiffness);
           cases::Scene scene = block({}, material, has_holes, 15); // too many unknowns for a factor
           if (stiffness == 100 || stiffness == 0) scene = with_consistent_masses(std::move(scene));
-          const Moving body(scene, {msm::scaled(hybrid_springs, unit)});
+          msm::CellStiffness springs = hybrid_springs;
+          if (unit != 1) springs.midline = 0.5;
+          const Moving body(scene, {msm::scaled(springs, unit)});
           // The mass term is as large as the stiffness, whatever its unit.
           const Vector rest = body.rest();
           const mechanics::StepTerms terms{1e5 * unit, 20, rest, rest, rest, 1};
