@@ -8,6 +8,7 @@
 #include "cases/mesh/vtk_functions.hpp"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 
 namespace springproof::cases {
@@ -16,9 +17,13 @@ using Eigen::Vector3d;
 
 namespace {
 
+constexpr const char* mend_it =
+    "where it crosses or touches itself, mend it (MeshLab: Select Self Intersecting Faces; Blender: 3D Print "
+    "Toolbox), give another size, or take fill = \"cubes\"";
 constexpr double most_tetrahedra = 20e6;
 /// Volume of a tetrahedron over the cube of its edge, if all six are equally long; gmsh's are about as large.
 const double volume_of_regular = 1 / (6 * std::sqrt(2.));
+const double area_of_regular = std::sqrt(3.) / 4; ///< the same of its faces, over the square
 
 double enclosed_volume(const TriangleMesh& surface) {
   double volume = 0;
@@ -26,6 +31,12 @@ double enclosed_volume(const TriangleMesh& surface) {
     volume +=
         surface.vertices[index(a)].dot(surface.vertices[index(b)].cross(surface.vertices[index(c)])) / 6;
   return std::abs(volume);
+}
+
+double area_of(const TriangleMesh& surface) {
+  double area = 0;
+  for (const auto& triangle : surface.triangles) area += doubled_area(triangle, surface.vertices).norm() / 2;
+  return area;
 }
 
 std::string place_of(const Vector3d& point) {
@@ -52,6 +63,11 @@ void check_is_closed(const TriangleMesh& surface, const FilledSurface& body) {
   refuse_if([](int n) { return n > 2; },
             "is no surface of one body: {} of its edges belong to more than two triangles",
             "take parts that touch apart (MeshLab: Repair Non Manifold Edges), or fill = \"cubes\"");
+  if (const std::size_t n = n_open_edges(surface))
+    body.file.refuse(
+        fmt::format("has triangles that are turned over: {} of its edges run the same way in both of "
+                    "their triangles; turn them (MeshLab: Re-Orient All Faces Coherently)",
+                    n / 2));
 }
 
 /// Reads the surface in mm.
@@ -66,17 +82,67 @@ Voxels as_voxels(const FilledSurface& body) {
   return {body.file, body.size, body.scale};
 }
 
-MeshWithRemarks filled_by_gmsh(const TriangleMesh& surface, const FilledSurface& body) {
+/// Number of parts that share no vertex: bodies of their own, bodies that overlap, or cavities.
+std::size_t n_parts(const TriangleMesh& surface) {
+  boost::disjoint_sets_with_storage<> parts(surface.vertices.size());
+  std::vector<bool> is_used(surface.vertices.size(), false);
+  for (const auto& triangle : surface.triangles)
+    for (const int vertex : triangle) {
+      parts.union_set(index(triangle[0]), index(vertex));
+      is_used[index(vertex)] = true;
+    }
+  std::size_t n = 0;
+  for (std::size_t v = 0; v < is_used.size(); ++v) n += is_used[v] && parts.find_set(v) == v ? 1 : 0;
+  return n;
+}
+
+bool has_cells(const MeshFileContent& content) {
+  return std::any_of(content.elements.begin(), content.elements.end(), [](const auto& of_entity) {
+    return of_entity.first[0] == 3 && !of_entity.second.empty();
+  });
+}
+
+/// The same surface with every triangle divided into four. gmsh's partition of a surface (METIS) finds no end
+/// on one of four triangles.
+TriangleMesh divided(const TriangleMesh& surface) {
+  TriangleMesh fine{surface.vertices, {}};
+  std::map<std::array<int, 2>, int> middles; // by edge
+  const auto middle = [&](int a, int b) {
+    const auto [found, is_new] =
+        middles.try_emplace(sorted(std::array{a, b}), static_cast<int>(fine.vertices.size()));
+    if (is_new) fine.vertices.emplace_back((surface.vertices[index(a)] + surface.vertices[index(b)]) / 2);
+    return found->second;
+  };
+  for (const auto& [a, b, c] : surface.triangles) {
+    const int ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    for (const std::array<int, 3>& part :
+         {std::array{a, ab, ca}, std::array{ab, b, bc}, std::array{ca, bc, c}, std::array{ab, bc, ca}})
+      fine.triangles.push_back(part);
+  }
+  return fine;
+}
+
+/// Ten times what gmsh takes.
+Limits limits_to_fill(const TriangleMesh& surface, double n_cells) {
+  const double seconds = 30 + 2e-3 * double(surface.triangles.size()) + 1e-3 * n_cells;
+  return {static_cast<int>(std::min(seconds, double(limits_to_mesh.seconds))), limits_to_mesh.bytes};
+}
+
+MeshWithRemarks filled_by_gmsh(TriangleMesh surface, const FilledSurface& body, double n_cells) {
+  constexpr std::size_t few = 100;
+  while (surface.triangles.size() < few) surface = divided(surface);
   const auto& gmsh = *static_cast<const GmshFunctions*>(load_shared_object("springproof_gmsh"));
   std::vector<std::array<double, 3>> vertices;
   for (const Vector3d& vertex : surface.vertices) vertices.push_back({vertex.x(), vertex.y(), vertex.z()});
   const auto work = [&] {
-    const MeshWithRemarks made = mesh_of(gmsh.fill(vertices, surface.triangles, body.size));
+    MeshFileContent content = gmsh.fill(vertices, surface.triangles, body.size);
+    if (!has_cells(content)) throw std::runtime_error("gmsh finds no inside");
+    const MeshWithRemarks made = mesh_of(std::move(content));
     return to_bytes(made.remarks, bytes_of_mesh(made.mesh));
   };
   MeshWithRemarks filled;
   std::string bytes;
-  from_bytes(run_confined(work, limits_to_mesh), filled.remarks, bytes);
+  from_bytes(run_confined(work, limits_to_fill(surface, n_cells)), filled.remarks, bytes);
   filled.mesh = mesh_from(bytes);
   return filled;
 }
@@ -85,22 +151,35 @@ Mesh fill_with_tetrahedra(const TriangleMesh& surface, const FilledSurface& body
                           std::vector<std::string>& remarks) {
   check_is_closed(surface, body);
   const Vector3d extent = bounding_box(surface.vertices).sizes();
-  const double n_cells = enclosed_volume(surface) / (volume_of_regular * std::pow(body.size, 3));
+  const double area = area_of(surface);
+  constexpr double flat = 1e-9;
+  if (!(enclosed_volume(surface) > flat * area * extent.maxCoeff()))
+    body.file.refuse("encloses no volume: its triangles lie in a plane, or double each other");
+  // A flat body has two tetrahedra and more for each triangle of its surface.
+  const double n_cells = std::max(enclosed_volume(surface) / (volume_of_regular * std::pow(body.size, 3)),
+                                  2 * area / (area_of_regular * std::pow(body.size, 2)));
   if (!(n_cells <= most_tetrahedra))
     body.file.refuse(fmt::format("needs {:.2g} tetrahedra with edges of {} mm, must need at most {:.0e}: {}",
                                  n_cells, body.size, most_tetrahedra, scale_hint(extent)));
+  constexpr double most_edges = 1e4; // along the body
+  if (!(extent.maxCoeff() <= most_edges * body.size))
+    body.file.refuse(fmt::format("is {:.3g} mm long, must be at most {:.0e} edges of {} mm: {}",
+                                 extent.maxCoeff(), most_edges, body.size, scale_hint(extent)));
   if (!(body.size <= extent.maxCoeff()))
     body.file.refuse(
         fmt::format("is smaller than an edge of {} mm, the size: {}", body.size, scale_hint(extent)));
   try {
-    MeshWithRemarks filled = filled_by_gmsh(surface, body);
+    MeshWithRemarks filled = filled_by_gmsh(surface, body, n_cells);
     for (const std::string& remark : filled.remarks) remarks.push_back(body.file.path + ": " + remark);
     return std::move(filled.mesh);
   } catch (const std::exception& error) {
-    body.file.refuse(fmt::format(
-        "cannot be filled with tetrahedra ({}): where it crosses or touches itself, mend it (MeshLab: Select "
-        "Self Intersecting Faces; Blender: 3D Print Toolbox), give another size, or take fill = \"cubes\"",
-        error.what()));
+    if (const std::size_t n = n_parts(surface); n > 1)
+      body.file.refuse(
+          fmt::format("cannot be filled with tetrahedra ({}): it has {} parts that share no vertex. "
+                      "Those that overlap must be united (Blender: Boolean, Union), or fill = "
+                      "\"cubes\"; those that lie apart are bodies of their own",
+                      error.what(), n));
+    body.file.refuse(fmt::format("cannot be filled with tetrahedra ({}): {}", error.what(), mend_it));
   }
 }
 
@@ -109,7 +188,8 @@ double largest_distance(const TriangleMesh& from, const TriangleMesh& to) {
   std::vector<Vector3d> points = from.vertices;
   for (const auto& triangle : from.triangles) points.push_back(barycentre(triangle, from.vertices));
   const std::vector<double> distances = vtk().distances(to, points);
-  return *std::max_element(distances.begin(), distances.end());
+  const double largest = *std::max_element(distances.begin(), distances.end());
+  return largest > 1e-9 * bounding_box(points).sizes().norm() ? largest : 0; // rounding
 }
 
 } // namespace
@@ -131,8 +211,14 @@ Mesh fill_surface(const FilledSurface& body, std::vector<std::string>& remarks) 
   const TriangleMesh outside = triangles_of_faces(mesh, boundary_faces(mesh));
   const double enclosed = enclosed_volume(surface),
                distance = std::max(largest_distance(outside, surface), largest_distance(surface, outside));
+  // Between two surfaces there is about the area times the distance at most. What crosses itself bounds
+  // another volume than it seems to.
+  const double between = 2 * area_of(surface) * distance + 1e-5 * enclosed; // the files' single precision
+  if (body.fill == Fill::tetrahedra && !(std::abs(volume - enclosed) <= between))
+    body.file.refuse(fmt::format("bounds {:.6g} mm3, and gmsh fills {:.6g} mm3 of it with tetrahedra: {}",
+                                 enclosed, volume, mend_it));
   remarks.push_back(
-      fmt::format("{}: {} {} fill {:.6g} of its {:.6g} mm3 ({:+.2g} %), and their surface is at most "
+      fmt::format("{}: {} {} fill {:.6g} of its {:.6g} mm3 ({:+.2f} %), and their surface is at most "
                   "{:.3g} mm from it: limits are those of the cells' body",
                   body.file.path, mesh.cells.size(),
                   body.fill == Fill::cubes ? "cubes" : reference_cell(mesh.shape).names, volume, enclosed,

@@ -2,10 +2,11 @@
 
 usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
 
-Kinds: case, dynamic, msh, stl, skin, nifti, vtu, cells, vtk, vtp, displacements, network, curve, kept. A damaged file ends in exit status 0, 1
-or 2 within 5 s (a slow build of the program may have more, in the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and
-without a word of a sanitizer's; a damaged kept result ends in the numbers of an undisturbed run. What offends is left in the folder that
-is named. The damage is the same in every run. Only Python's standard library is used.
+Kinds: case, dynamic, msh, tetrahedra, tetrahedra22, tetrahedra_vtu, tetrahedra_vtk, stl, obj, ply, skin, nifti, vtu, cells, vtk, vtp,
+displacements, network, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the program may have more, in
+the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and without a word of a sanitizer's; a damaged kept result ends in
+the numbers of an undisturbed run. What offends is left in the folder that is named. The damage is the same in every run. Only Python's
+standard library is used.
 """
 
 import json
@@ -22,6 +23,7 @@ from pathlib import Path
 PROGRAM, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:3])
 LIMIT_SECONDS = float(os.environ.get("LIMIT_SECONDS", 5))
 FOUND = (b"Sanitizer", b"runtime error:", b"ended without an answer")  # the last: in a confined process
+MESHES = SOURCE / "tests/cases/mesh/files"
 UNTHOUGHT = [b"0", b"-1", b"nan", b"-inf", b"1e308", b"1e-320", b"2147483648", b"9223372036854775807", b"18446744073709551616",
              b"0x1p-1074", b"1e", b"", b"%s%n", b"\xff\xfe", b"'", b"../../x"]
 
@@ -204,12 +206,50 @@ class Msh(Kind):
         return springproof("run", "--only", "msm", self.case('[body]\nshape = "mesh"\nfile = "body.msh"'))
 
 
-class Stl(Kind):
-    whole = cube_stl()
+class Tetrahedra(Msh):
+    """Tetrahedra as gmsh writes them."""
+    name, whole = "body.msh", (MESHES / "gmsh_41_binary.msh").read_bytes()
 
     def given(self, content):
-        (self.folder / "body.stl").write_bytes(content)
-        return springproof("run", "--only", "msm", self.case('[body]\nshape = "voxels"\nsurface = "body.stl"\nedge = 1'))
+        (self.folder / self.name).write_bytes(content)
+        return springproof("run", "--only", "msm", self.case(f'[body]\nshape = "mesh"\nfile = "{self.name}"'))
+
+
+class Tetrahedra22(Tetrahedra):
+    whole = (MESHES / "gmsh_22_text.msh").read_bytes()
+
+
+class TetrahedraVtu(Tetrahedra):
+    """The same by meshio."""
+    name, whole = "body.vtu", (MESHES / "meshio.vtu").read_bytes()
+
+
+class TetrahedraVtk(Tetrahedra):
+    name, whole = "body.vtk", (MESHES / "meshio.vtk").read_bytes()
+
+
+class Stl(Kind):
+    whole = cube_stl()
+    name, body = "body.stl", 'shape = "voxels"\nsurface = "body.stl"\nedge = 1'
+
+    def given(self, content):
+        (self.folder / self.name).write_bytes(content)
+        return springproof("run", "--only", "msm", self.case("[body]\n" + self.body))
+
+
+class Obj(Stl):
+    """A cube of squares, which cubes fill."""
+    corners = [(2 * (i & 1), 2 * (i >> 1 & 1), 2 * (i >> 2)) for i in range(8)]
+    squares = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    whole = "\n".join(["# a cube", *(f"v {x} {y} {z}" for x, y, z in corners), *("f " + " ".join(str(v + 1) for v in face) for face in squares), ""]).encode()
+    name, body = "body.obj", 'shape = "surface"\nfile = "body.obj"\nsize = 1\nfill = "cubes"'
+
+
+class Ply(Stl):
+    whole = "\n".join(["ply", "format ascii 1.0", "element vertex 8", "property float x", "property float y", "property float z", "element face 6",
+                       "property list uchar int vertex_indices", "end_header", *(f"{x} {y} {z}" for x, y, z in Obj.corners),
+                       *("4 " + " ".join(map(str, face)) for face in Obj.squares), ""]).encode()
+    name, body = "body.ply", 'shape = "surface"\nfile = "body.ply"\nsize = 1\nfill = "cubes"'
 
 
 class Skin(Kind):
@@ -380,7 +420,8 @@ class Kept(Kind):
         return done
 
 
-KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "stl": Stl, "skin": Skin, "nifti": Nifti, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
+KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "tetrahedra": Tetrahedra, "tetrahedra22": Tetrahedra22,
+         "tetrahedra_vtu": TetrahedraVtu, "tetrahedra_vtk": TetrahedraVtk, "stl": Stl, "obj": Obj, "ply": Ply, "skin": Skin, "nifti": Nifti, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
          "displacements": Displacements, "network": Network, "curve": Curve, "kept": Kept}
 
 

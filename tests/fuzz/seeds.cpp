@@ -26,6 +26,20 @@ cases::Mesh wedge() {
   return mesh;
 }
 
+/// The same box of tetrahedra around the diagonals of its cells.
+cases::Mesh tetrahedra() {
+  const cases::Mesh box = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
+  cases::Mesh mesh;
+  mesh.shape = cases::CellShape::tetrahedron;
+  mesh.nodes = box.nodes;
+  for (const cases::CellNodes& cell : box.cells)
+    for (const auto& [a, b] : {std::pair(1, 3), {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}})
+      mesh.cells.stored().push_back(cases::pick(cell, cases::CellNodes{0, a, b, 7}));
+  mesh.groups["end"] = {{0, 3, 6, 9}, {{0, 3}}, {{0, 6, 9}, {0, 9, 3}}};
+  mesh.group_of_cell.assign(mesh.cells.size(), "left");
+  return mesh;
+}
+
 cases::Surface boundary(const cases::Mesh& mesh) {
   cases::Surface surface;
   for (const auto& face : cases::boundary_faces(mesh))
@@ -91,6 +105,7 @@ int main(int, char** argv) {
   };
   write("mesh/bar", cases::bytes_of_mesh(bar()));
   write("mesh/wedge", cases::bytes_of_mesh(wedge()));
+  write("mesh/tetrahedra", cases::bytes_of_mesh(tetrahedra()));
   write("stl/box", cases::bytes_of(boundary(cases::make_box_mesh({2, 1, 1}, {1, 1, 1}))));
   write("stl/wedge", cases::bytes_of(boundary(wedge())));
   write("vtp/box", cases::bytes_of(boundary(cases::make_box_mesh({2, 2, 2}, {1, 1, 1}))));

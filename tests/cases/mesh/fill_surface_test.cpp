@@ -50,6 +50,23 @@ Polygons ellipsoid_of_polygons() {
   return body;
 }
 
+/// A torus whose tube is wider than its ring: it crosses itself.
+Polygons spindle() {
+  constexpr int n = 40;
+  Polygons body;
+  const double turn = 2 * std::acos(-1.0) / n;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double from_axis = 3 + 4 * std::cos(turn * j);
+      body.vertices.emplace_back(from_axis * std::cos(turn * i), from_axis * std::sin(turn * i),
+                                 4 * std::sin(turn * j));
+      const int next_i = (i + 1) % n * n, next_j = (j + 1) % n;
+      body.faces.push_back({n * i + j, next_i + j, next_i + next_j});
+      body.faces.push_back({n * i + j, next_i + next_j, n * i + next_j});
+    }
+  return body;
+}
+
 std::string as_obj(const Polygons& body) {
   std::string text;
   for (const Vector3d& v : body.vertices) text += fmt::format("v {}\n", fmt::join(v, " "));
@@ -170,10 +187,17 @@ TEST_CASE("a surface that bounds no body is refused in one line with the remedy"
     for (int& v : face) v += 8;
     crossed.faces.push_back(face);
   }
-  check_not_filled("a.obj", as_obj(crossed), 0.3, "cannot be filled with tetrahedra");
+  check_not_filled("a.obj", as_obj(crossed), 0.3, "it has 2 parts that share no vertex");
   check_not_filled("a.obj", as_obj(crossed), 0.3, "fill = \"cubes\"");
   check_not_filled("a.obj", as_obj(cube_of_polygons), 2, "is smaller than an edge of 2 mm");
   check_not_filled("a.obj", as_obj(cube_of_polygons), 0.001, "must need at most");
+  Polygons turned = cube_of_polygons;
+  std::reverse(turned.faces[2].begin(), turned.faces[2].end());
+  check_not_filled("a.obj", as_obj(turned), 0.3, "has triangles that are turned over: 4 of its edges");
+  check_not_filled("a.obj", as_obj(spindle()), 2, "where it crosses or touches itself");
+  Polygons flat = cube_of_polygons;
+  for (Vector3d& vertex : flat.vertices) vertex.z() = 0;
+  check_not_filled("a.obj", as_obj(flat), 0.3, "");
   check_not_filled("a.obj", "", 0.3, "");
   check_not_filled("a.ply", "ply\n", 0.3, "");
   check_not_filled("a.obj", "v 0 0 0\nf 1 2 3\n", 0.3, "");
