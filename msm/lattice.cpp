@@ -117,6 +117,60 @@ Blocks<4> volume_second_derivative(const Positions<4>& x) {
   return blocks;
 }
 
+double VolumePatch::volume(const Points& x) const {
+  double sum = 0;
+  for (const std::array<int, 4>& places : tetrahedra) sum += volume_of(at_nodes(places, x)) / 4;
+  return sum;
+}
+
+Points VolumePatch::gradient(const Points& x) const {
+  Points sum(nodes.size(), Vector3d::Zero());
+  for (const std::array<int, 4>& places : tetrahedra) {
+    const Positions<4> own = volume_gradient(at_nodes(places, x));
+    for (std::size_t v = 0; v < 4; ++v) sum[index(places[v])] += own[v] / 4;
+  }
+  return sum;
+}
+
+VolumeLaw VolumePatch::law_at(const Points& rest, const Points& displacement) const {
+  Points middle = rest;
+  for (std::size_t v = 0; v < middle.size(); ++v) middle[v] += displacement[v] / 2;
+  const Points slope = gradient(middle);
+  double change = volume(displacement) / 4; // exact: the volume is a cubic form
+  for (std::size_t v = 0; v < slope.size(); ++v) change += slope[v].dot(displacement[v]);
+  return volume_law(1 + change / rest_volume, is_logarithmic);
+}
+
+double VolumePatch::small_motion_energy(const Points& rest, const Points& motion) const {
+  const Points slope = gradient(rest);
+  double change = 0;
+  for (std::size_t v = 0; v < slope.size(); ++v) change += slope[v].dot(motion[v]);
+  return 0.5 * stiffness / rest_volume * change * change;
+}
+
+Points VolumePatch::forces(const Points& x) const {
+  const double pressure = stiffness * law(x).pressure;
+  Points all = gradient(x);
+  for (Vector3d& force : all) force *= -pressure;
+  return all;
+}
+
+Eigen::MatrixXd VolumePatch::tangent_matrix(const Points& x, Clamp clamp) const {
+  const VolumeLaw at = law(x);
+  const Points slope = gradient(x);
+  Eigen::VectorXd all(3 * slope.size());
+  for (std::size_t v = 0; v < slope.size(); ++v) all.segment<3>(static_cast<Eigen::Index>(3 * v)) = slope[v];
+  Eigen::MatrixXd matrix = stiffness / rest_volume * at.slope * all * all.transpose();
+  if (clamp == Clamp::yes) return matrix;
+  for (const std::array<int, 4>& places : tetrahedra) {
+    const Blocks<4> second = volume_second_derivative(at_nodes(places, x));
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < 4; ++b)
+        matrix.block<3, 3>(3 * places[a], 3 * places[b]) += stiffness * at.pressure / 4 * second[a][b];
+  }
+  return matrix;
+}
+
 EdgeMatrix biquadratic_stiffness(const TetrahedronPositions& rest, double lambda, double mu) {
   const Matrix3d inverse = edges_from_first(rest).inverse(); // row c: the gradient of N_(c+1)
   Eigen::Matrix<double, 3, 4> gradient;
@@ -212,6 +266,11 @@ SPRINGPROOF_INLINE Positions<n> seen(const std::array<int, n>& nodes, const Poin
     return {positions[index(nodes[0])], positions[index(nodes[1])]};
   Positions<n> x = at_nodes(nodes, positions);
   for (std::size_t v = n; v-- > 0;) x[v] -= x[0];
+  return x;
+}
+SPRINGPROOF_INLINE Points seen(const std::vector<int>& nodes, const Points& positions) {
+  Points x = at_nodes(nodes, positions);
+  for (std::size_t v = x.size(); v-- > 0;) x[v] -= x[0];
   return x;
 }
 template<class Nodes>

@@ -74,7 +74,7 @@ Blocks<4> volume_second_derivative(const Positions<4>& x);
 /// Two points joined by a spring. Springs of one law that cells share are one link with the sum of the cells'
 /// stiffnesses.
 ///
-/// The terms of a lattice are of several kinds: links, Midline, VolumeTerm, Tetrahedron. Every kind has, by
+/// The terms of a lattice are of several kinds: links, Midline, VolumeTerm, VolumePatch, Tetrahedron. Every kind has, by
 /// its nodes' positions x, the `energy`, N mm; the `forces` on the nodes, N, minus its gradient; the
 /// `tangent`, its second derivative: a function that returns the 3x3 block of two nodes, N/mm, clamped such
 /// that the whole is positive semidefinite where no stiffness is negative; and the `small_motion_energy` of a
@@ -182,6 +182,35 @@ struct VolumeTerm {
 using VolumeCell = VolumeTerm<8>;
 using VolumeTetrahedron = VolumeTerm<4>;
 
+/// The tetrahedra about a node, which resist a change of the quarter of their volume that is the node's. Terms
+/// of single tetrahedra, five or six a node, lock where the volume hardly changes; these are one a node.
+/// Clamped, the tangent is that of VolumeTerm.
+/// Source: the average nodal pressure of Bonet & Burton 1998.
+struct VolumePatch {
+  std::vector<int> nodes;                     ///< the node, then its neighbours
+  std::vector<std::array<int, 4>> tetrahedra; ///< places among `nodes`
+  std::vector<std::array<int, 2>> edges;      ///< from the node to its neighbours, places among `nodes`
+  double stiffness;                           ///< MPa
+  double rest_volume;                         ///< mm³
+  bool is_logarithmic = false;
+
+  double volume(const Points& x) const;
+  Points gradient(const Points& x) const; ///< dV/dx, mm²
+  VolumeLaw law(const Points& x) const { return volume_law(volume(x) / rest_volume, is_logarithmic); }
+  /// The law at a displacement from rest: no digits of a small change of volume are lost.
+  VolumeLaw law_at(const Points& rest, const Points& displacement) const;
+  double energy(const Points& x) const { return stiffness * rest_volume * law(x).integral; }
+  double small_motion_energy(const Points& rest, const Points& motion) const;
+  Points forces(const Points& x) const;
+  /// Degree of freedom 3*place + component.
+  Eigen::MatrixXd tangent_matrix(const Points& x, Clamp clamp) const;
+  auto tangent(const Points& x, Clamp clamp) const {
+    return [matrix = tangent_matrix(x, clamp)](std::size_t a, std::size_t b) -> Eigen::Matrix3d {
+      return matrix.block<3, 3>(static_cast<Eigen::Index>(3 * a), static_cast<Eigen::Index>(3 * b));
+    };
+  }
+};
+
 /// Tetrahedra of biquadratic springs: energies of the changes of squared lengths, Delta_e = l_e² - L_e², of
 /// the six edges,
 ///   W = 1/2 sum_ef K_ef Delta_e Delta_f,  K_ef = V/4 (2 mu B_e : B_f + lambda tr B_e tr B_f),
@@ -235,6 +264,7 @@ struct Lattice {
   std::vector<Link> links;
   std::vector<VolumeCell> volume_cells; ///< empty when no cell has a volume term
   std::vector<VolumeTetrahedron> volume_tetrahedra{};
+  std::vector<VolumePatch> volume_patches{}; ///< in the order of their first nodes
   std::vector<Tetrahedron> tetrahedra{};
   std::vector<Midline> midlines{};
 };
@@ -246,6 +276,7 @@ void for_each_kind(AnyLattice& lattice, const Action& action) {
   action(lattice.links);
   action(lattice.volume_cells);
   action(lattice.volume_tetrahedra);
+  action(lattice.volume_patches);
   action(lattice.tetrahedra);
   action(lattice.midlines);
 }
@@ -263,6 +294,12 @@ template<std::size_t n>
 Positions<n> at_nodes(const std::array<int, n>& nodes, const Points& values) {
   Positions<n> picked;
   for (std::size_t v = 0; v < n; ++v) picked[v] = values[cases::index(nodes[v])];
+  return picked;
+}
+inline Points at_nodes(const std::vector<int>& nodes, const Points& values) {
+  Points picked;
+  picked.reserve(nodes.size());
+  for (const int node : nodes) picked.push_back(values[cases::index(node)]);
   return picked;
 }
 

@@ -240,12 +240,54 @@ mechanics::FieldsOf how_of(const cases::Scene& scene, const cases::Solution& sol
               : mechanics::Balance::not_asked};
 }
 
+/// What the patches about nodes have of an answer.
+struct AtNode {
+  double pressure = 0; ///< derivative of the energy density by the volume ratio, MPa
+  double energy = 0;   ///< per rest volume, MPa
+};
+
+/// One per node of the mesh; empty where no volume term is at nodes.
+std::vector<AtNode> patches_at_nodes(const cases::Scene& scene, const SpringBody& springs,
+                                     const cases::Solution& solution) {
+  if (!has_volume_patches(springs)) return {};
+  const Points displacement =
+      solution.sharing ? solution.sharing->gather(solution.displacement) : solution.displacement;
+  std::vector<AtNode> all(scene.mesh.nodes.size());
+  const Lattice lattice = make_lattice(scene.mesh, springs);
+  for (const VolumePatch& patch : lattice.volume_patches) {
+    Points rest = at_nodes(patch.nodes, lattice.rest), motion = at_nodes(patch.nodes, displacement);
+    for (std::size_t v = rest.size(); v-- > 0;) rest[v] -= rest[0], motion[v] -= motion[0];
+    const VolumeLaw law = patch.law_at(rest, motion);
+    all[index(patch.nodes[0])] = {patch.stiffness * law.pressure, patch.stiffness * law.integral};
+  }
+  return all;
+}
+
+/// Adds what the patches of a cell's nodes give it: a quarter of its volume each.
+void add_patches(mechanics::FieldSums& sums, std::size_t c, const SeenCell& cell, const cases::CellNodes& nodes,
+                 const std::vector<AtNode>& patches) {
+  mechanics::CellSums& sum = sums.cell(c);
+  double pressure = 0;
+  for (const int node : nodes) {
+    pressure += patches[index(node)].pressure / 4;
+    sum.energy() += cases::cell_volume(cell.rest) * patches[index(node)].energy / 4;
+  }
+  const auto gradient = volume_gradient(cell.now);
+  for (std::size_t v = 0; v < nodes.size(); ++v) {
+    sum.virial() += pressure * gradient[v] * cell.now[v].transpose();
+    sums.force(index(nodes[v])) += pressure * gradient[v];
+  }
+}
+
 cases::Fields fields_of_cells(const cases::Scene& scene, const SpringBody& springs,
                               const cases::Solution& solution, double load_factor) {
   const cases::Sharing* const sharing = solution.sharing.get();
   const cases::Share here = cases::share_here(scene.mesh, sharing);
   mechanics::FieldSums sums(here.nodes, here.cells);
-  for_each_cell(scene.mesh, springs, here.cells, [&](std::size_t c, const CellTerms& terms) {
+  const std::vector<AtNode> patches = patches_at_nodes(scene, springs, solution);
+  for_each_cell(scene.mesh, springs, here.cells, [&](std::size_t c, const CellTerms& designed) {
+    CellTerms terms = designed;
+    if (!patches.empty()) terms.volume = 0;
     const SeenCell cell(scene.mesh, c, solution.displacement, here.nodes.begin);
     mechanics::CellSums& sum = sums.cell(c);
     add_shape(sum, cell);
@@ -253,6 +295,7 @@ cases::Fields fields_of_cells(const cases::Scene& scene, const SpringBody& sprin
     const Points motion(cell.motion.begin(), cell.motion.end()), force = internal_force_at(lattice, motion);
     sum.energy() += energy_at(lattice, motion);
     const cases::CellNodes nodes = scene.mesh.cells[c];
+    if (!patches.empty()) add_patches(sums, c, cell, nodes, patches);
     for (std::size_t v = 0; v < nodes.size(); ++v) {
       sum.virial() -= force[v] * cell.now[v].transpose();
       sums.force(index(nodes[v])) -= force[v];

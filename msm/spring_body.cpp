@@ -145,6 +145,36 @@ void add_cell(Lattice& lattice, const CellTerms& terms, const cases::CellNodes& 
         {cases::hexahedron_nodes(nodes), terms.volume, rest_volume, terms.is_logarithmic});
 }
 
+/// Adds a patch for every node of cells whose volume terms are at their nodes. Its stiffness is the mean of the
+/// cells', by volume.
+/// @param own  numbers and terms of these cells
+void add_patches(Lattice& lattice, const cases::Mesh& mesh,
+                 const std::vector<std::pair<std::size_t, CellTerms>>& own) {
+  std::vector<std::vector<std::size_t>> cells_of(lattice.rest.size()); // places in own
+  for (std::size_t n = 0; n < own.size(); ++n)
+    for (const int node : mesh.cells[own[n].first]) cells_of[index(node)].push_back(n);
+  for (std::size_t node = 0; node < cells_of.size(); ++node) {
+    if (cells_of[node].empty()) continue;
+    VolumePatch patch{{static_cast<int>(node)}, {}, {}, 0, 0, own[cells_of[node][0]].second.is_logarithmic};
+    for (const std::size_t n : cells_of[node]) {
+      std::array<int, 4> places{};
+      for (std::size_t v = 0; v < 4; ++v) {
+        const int vertex = mesh.cells[own[n].first][v];
+        const auto known = std::find(patch.nodes.begin(), patch.nodes.end(), vertex);
+        places[v] = static_cast<int>(known - patch.nodes.begin());
+        if (known == patch.nodes.end()) patch.nodes.push_back(vertex);
+      }
+      patch.tetrahedra.push_back(places);
+      const double volume = cases::cell_volume(cases::cell_corners(mesh, own[n].first)) / 4;
+      patch.rest_volume += volume;
+      patch.stiffness += own[n].second.volume * volume;
+    }
+    patch.stiffness /= patch.rest_volume;
+    for (int v = 1; v < static_cast<int>(patch.nodes.size()); ++v) patch.edges.push_back({0, v});
+    if (patch.stiffness != 0) lattice.volume_patches.push_back(std::move(patch));
+  }
+}
+
 void add_network(Lattice& lattice, const Network& springs) {
   for (const cases::NetworkSpring& spring : springs) {
     const auto [i, j] = std::minmax(spring.a, spring.b);
@@ -221,11 +251,24 @@ Lattice make_lattice(const cases::Mesh& mesh, const SpringBody& springs) {
     add_network(lattice, *network);
     return lattice;
   }
+  std::vector<std::pair<std::size_t, CellTerms>> of_nodes;
   for_each_cell(mesh, springs, {0, mesh.cells.size()}, [&](std::size_t c, const CellTerms& terms) {
-    add_cell(lattice, terms, mesh.cells[c], cases::cell_volume(cases::cell_corners(mesh, c)));
+    CellTerms own = terms;
+    if (terms.is_at_nodes) {
+      of_nodes.push_back({c, {{}, {}, {}, terms.volume, terms.is_logarithmic, true}});
+      own.volume = 0;
+    }
+    add_cell(lattice, own, mesh.cells[c], cases::cell_volume(cases::cell_corners(mesh, c)));
   });
+  add_patches(lattice, mesh, of_nodes);
   lattice.links = merge(std::move(lattice.links));
   return lattice;
+}
+
+bool has_volume_patches(const SpringBody& springs) {
+  const BodyTerms* terms = springs.terms();
+  return terms && std::any_of(terms->kinds.begin(), terms->kinds.end(),
+                              [](const CellTerms& kind) { return kind.is_at_nodes && kind.volume != 0; });
 }
 
 Lattice cell_lattice(const CellTerms& terms, const cases::CellCorners& corners) {

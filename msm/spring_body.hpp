@@ -39,6 +39,7 @@ struct CellTerms {
   std::vector<CellMidline> midlines{};
   double volume = 0;           ///< k_v, MPa
   bool is_logarithmic = false; ///< the volume term
+  bool is_at_nodes = false;    ///< the volume term of tetrahedra: VolumePatch in place of VolumeTerm
 };
 
 /// Springs that cells share.
@@ -110,6 +111,9 @@ void for_each_cell(const cases::Mesh& mesh, const SpringBody& springs, const cas
 /// 4.3.1: an interior edge of a cubical lattice 4 k_e, an interior face diagonal 2 k_f). Springs and volume
 /// terms of stiffness 0 are left out.
 Lattice make_lattice(const cases::Mesh& mesh, const SpringBody& springs);
+
+/// Whether a body has cells whose volume terms are at their nodes.
+bool has_volume_patches(const SpringBody& springs);
 
 /// The lattice of one cell, whose points are its corners; its springs are in their order among the terms.
 Lattice cell_lattice(const CellTerms& terms, const cases::CellCorners& corners);

@@ -15,7 +15,8 @@ SPRINGPROOF_FIELDS(springproof::msm::LatticeModuli, c11, c12, c44, zener, youngs
 SPRINGPROOF_FIELDS(springproof::msm::CellSpring, vertices, stiffness, law)
 SPRINGPROOF_FIELDS(springproof::msm::CellTetrahedron, vertices, lambda, mu)
 SPRINGPROOF_FIELDS(springproof::msm::CellMidline, axis, stiffness, law)
-SPRINGPROOF_FIELDS(springproof::msm::CellTerms, springs, tetrahedra, midlines, volume, is_logarithmic)
+SPRINGPROOF_FIELDS(springproof::msm::CellTerms, springs, tetrahedra, midlines, volume, is_logarithmic,
+                   is_at_nodes)
 SPRINGPROOF_FIELDS(springproof::msm::BodyTerms, kinds, kind_of_cell, boundary, planes_of_node)
 SPRINGPROOF_FIELDS(springproof::msm::SpringBody, kind)
 SPRINGPROOF_FIELDS(springproof::mechanics::TransverseModuli, c11, c12, c13, c33, c44, c66, bulk_modulus)

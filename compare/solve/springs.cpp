@@ -3,6 +3,7 @@
 #include "cases/scene/network.hpp"
 #include "cases/scene/regions.hpp"
 #include "cases/scene/thickness.hpp"
+#include "compare/solve/design_by_shape.hpp"
 #include "compare/solve/solve.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "mechanics/larger.hpp"
@@ -180,6 +181,7 @@ msm::DesignResult design_for(const cases::Scene& scene) {
     for (const std::string& part : cases::loose_parts_of(scene)) network.warnings.push_back(part);
     return network;
   }
+  if (is_designed_by_shape(scene)) return design_by_shape(scene);
   const DesignedCells cells = design_cells(scene);
   const std::vector<msm::DesignResult>& designs = cells.designs;
   msm::DesignResult all = designs.front();

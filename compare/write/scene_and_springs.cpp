@@ -5,6 +5,7 @@
 #include "compare/table/table.hpp"
 
 #include <array>
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -102,6 +103,36 @@ std::string cell_text(const msm::CellTerms& terms) {
   return fmt::format("{} in a cell", fmt::join(parts, ", "));
 }
 
+/// Whether every cell has springs of its own.
+bool differs_by_cell(const msm::BodyTerms& terms) {
+  return terms.kinds.size() > 2 && terms.kinds.size() == terms.kind_of_cell.size();
+}
+
+std::string cells_text(const msm::BodyTerms& terms) {
+  std::size_t n_springs = 0, n_others = 0;
+  std::array<double, 2> springs{INFINITY, 0}, volumes{INFINITY, -INFINITY};
+  const auto extend = [](std::array<double, 2>& range, double value) {
+    range = {std::min(range[0], value), std::max(range[1], value)};
+  };
+  for (const msm::CellTerms& cell : terms.kinds) {
+    n_springs += cell.springs.size();
+    n_others += cell.midlines.size() + cell.tetrahedra.size();
+    for (const msm::CellSpring& spring : cell.springs) extend(springs, 1e3 * spring.stiffness);
+    extend(volumes, cell.volume);
+  }
+  std::string text = fmt::format("springs of {} cells' own", terms.kinds.size());
+  if (n_springs > 0)
+    text += fmt::format(": {} parts of springs from {:.4g} to {:.4g} N/m", n_springs, springs[0], springs[1]);
+  if (n_others > 0)
+    text += fmt::format(", {} {}", n_others,
+                        terms.kinds.front().tetrahedra.empty() ? "midlines" : "tetrahedra of biquadratic springs");
+  if (volumes[0] != 0 || volumes[1] != 0)
+    text += fmt::format(", k_v = {:.4g} MPa{}{}", volumes[0],
+                        volumes[1] > volumes[0] ? fmt::format(" to {:.4g} MPa", volumes[1]) : "",
+                        terms.kinds.front().is_at_nodes ? " at the nodes" : "");
+  return text;
+}
+
 Json cell_to_json(const msm::BodyTerms& terms) {
   const msm::CellTerms& cell = terms.kinds.front();
   Json springs = Json::array(), tetrahedra = springs, midlines = springs;
@@ -118,7 +149,8 @@ Json cell_to_json(const msm::BodyTerms& terms) {
   return {{"springs", springs},
           {"tetrahedra", tetrahedra},
           {"midlines", midlines},
-          {"mirrored_from_cell_to_cell", terms.kinds.size() > 1},
+          {"mirrored_from_cell_to_cell", terms.kinds.size() > 1 && !differs_by_cell(terms)},
+          {"differs_from_cell_to_cell", differs_by_cell(terms)},
           {"boundary", cases::name_of(terms.boundary)}};
 }
 
@@ -170,7 +202,8 @@ std::string springs_text(const msm::DesignResult& design) {
   const msm::BodyTerms* terms = design.springs.terms();
   if (terms && terms->boundary == msm::Boundary::whole)
     return fmt::format("every spring {:.4g} N/m", 1e3 * design.stiffness.internal_diagonal);
-  return terms ? cell_text(terms->kinds.front()) + exponents_text(design.stiffness)
+  return terms ? (differs_by_cell(*terms) ? cells_text(*terms) : cell_text(terms->kinds.front())) +
+                     exponents_text(design.stiffness)
                : stiffness_text(design.stiffness);
 }
 

@@ -154,15 +154,43 @@ std::array<std::array<int, 4>, 5> five_tetrahedra(int kind) {
   return tetrahedra;
 }
 
+namespace {
+
+double van_gelder_stiffness(double youngs_modulus, double volume, double length) {
+  return youngs_modulus * volume / (length * length);
+}
+
+double lloyd_stiffness(double youngs_modulus, double volume) {
+  return 2 * std::sqrt(2.) / 25 * youngs_modulus * std::cbrt(12 * volume / std::sqrt(2.));
+}
+
+} // namespace
+
 std::vector<CellTerms> van_gelder(const CellPositions& vertices, double youngs_modulus) {
-  return springs_of_tetrahedra(
-      vertices, [&](double volume, double length) { return youngs_modulus * volume / (length * length); });
+  return springs_of_tetrahedra(vertices, [&](double volume, double length) {
+    return van_gelder_stiffness(youngs_modulus, volume, length);
+  });
 }
 
 std::vector<CellTerms> lloyd(const CellPositions& vertices, double youngs_modulus) {
-  return springs_of_tetrahedra(vertices, [&](double volume, double) {
-    return 2 * std::sqrt(2.) / 25 * youngs_modulus * std::cbrt(12 * volume / std::sqrt(2.));
-  });
+  return springs_of_tetrahedra(
+      vertices, [&](double volume, double) { return lloyd_stiffness(youngs_modulus, volume); });
+}
+
+CellTerms in_tetrahedron(cases::Design design, const TetrahedronPositions& x,
+                         const cases::LinearElastic& material) {
+  if (design == cases::Design::biquadratic) {
+    const mechanics::ElasticModuli moduli = mechanics::elastic_moduli(material);
+    return {{}, {{{0, 1, 2, 3}, moduli.lambda, moduli.mu}}};
+  }
+  const double volume = volume_of(x), e = material.youngs_modulus;
+  CellTerms terms;
+  for (const auto& [a, b] : tetrahedron_edges)
+    add_spring(terms, a, b,
+               design == cases::Design::lloyd
+                   ? lloyd_stiffness(e, volume)
+                   : van_gelder_stiffness(e, volume, (x[cases::index(b)] - x[cases::index(a)]).norm()));
+  return terms;
 }
 
 std::vector<CellTerms> biquadratic(double lambda, double mu) {

@@ -93,4 +93,9 @@ std::vector<CellTerms> lloyd(const CellPositions& vertices, double youngs_modulu
 /// Venant-Kirchhoff material.  @param lambda, mu  MPa    Source: Delingette 2008.
 std::vector<CellTerms> biquadratic(double lambda, double mu);
 
+/// The same springs of a mesh's own tetrahedron.
+/// @param design  van_gelder, lloyd or biquadratic
+CellTerms in_tetrahedron(cases::Design design, const TetrahedronPositions& x,
+                         const cases::LinearElastic& material);
+
 } // namespace springproof::msm

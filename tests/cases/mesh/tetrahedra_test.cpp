@@ -1,6 +1,7 @@
 #include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/read_mesh.hpp"
 #include "tests/support/mesh_volume.hpp"
+#include "tests/support/tetrahedra.hpp"
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
@@ -14,20 +15,6 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double rounding = 1e-13;
-
-/// A box of cubes, each cut into six tetrahedra around its diagonal, and sheared so that no edge is as long
-/// as another.
-Mesh box_of_tetrahedra() {
-  const Mesh box = make_box_mesh({2, 3, 1}, {2, 3, 1});
-  Mesh mesh;
-  mesh.shape = CellShape::tetrahedron;
-  for (const Vector3d& node : box.nodes)
-    mesh.nodes.stored().emplace_back(node.x() + 0.2 * node.y(), node.y() - 0.1 * node.z(), 1.3 * node.z());
-  for (const CellNodes& cube : box.cells)
-    for (const auto& [a, b] : {std::pair(1, 3), {3, 2}, {2, 6}, {6, 4}, {4, 5}, {5, 1}})
-      mesh.cells.stored().push_back(pick(cube, CellNodes{0, a, b, 7}));
-  return mesh;
-}
 
 /// Volume over the cube of the longest edge.
 double quality(const CellCorners& corners) {
@@ -72,7 +59,7 @@ TEST_CASE("faces of the reference cells look outwards, and each shape's function
 
 TEST_CASE("refined tetrahedra fill the body, meet in whole faces and get no worse after the second time",
           "[verification]") {
-  const Mesh mesh = box_of_tetrahedra();
+  const Mesh mesh = bodies::box_of_tetrahedra({2, 3, 1});
   const Mesh fine = refine(mesh), finer = refine(fine), finest = refine(finer);
   CHECK(volume_of(mesh) == Approx(6 * 1.3).epsilon(rounding)); // the shear's determinant is 1.3
   for (const Mesh* refined : {&fine, &finer, &finest}) {
@@ -100,7 +87,7 @@ TEST_CASE("refined tetrahedra fill the body, meet in whole faces and get no wors
 TEST_CASE(
     "a point of a tetrahedron is found, weighs its vertices and stays where it is when cells are halved",
     "[verification]") {
-  const Mesh mesh = box_of_tetrahedra(), fine = refine(mesh);
+  const Mesh mesh = bodies::box_of_tetrahedra({2, 3, 1}), fine = refine(mesh);
   Eigen::Matrix3d gradient;
   gradient << 0.1, -0.3, 0.2, 0.05, 0.4, -0.1, 0.3, 0.2, -0.2;
   const auto moved = [&](const Mesh& on, const CellPoint& point) {
