@@ -94,8 +94,20 @@ class Builder {
   /// All three-dimensional elements, their nodes by the file's tags for the moment.
   void read_cells() {
     const std::size_t n_vertices = reference().n_vertices;
+    std::map<std::vector<std::size_t>, std::size_t>
+        before; // cells of the groups before, by their sorted nodes
     for_each_solid([&](const FileElements& elements) {
+      const std::size_t n_before = mesh_.cells.size();
       for (std::size_t e = 0; e < elements.tags.size(); ++e) {
+        if (content_.has_elements_by_group) {
+          const auto first = elements.nodes.begin() + static_cast<std::ptrdiff_t>(n_vertices * e);
+          const auto [known, is_new] = before.try_emplace(
+              sorted(Tags(first, first + static_cast<std::ptrdiff_t>(n_vertices))), mesh_.cells.size());
+          if (!is_new && known->second < n_before) {
+            cell_number_[elements.tags[e]] = known->second;
+            continue;
+          }
+        }
         cell_number_[elements.tags[e]] = mesh_.cells.size();
         numbers_.of_cells.push_back(elements.tags[e]);
         CellNodes& cell = mesh_.cells.stored().emplace_back();
@@ -143,12 +155,19 @@ class Builder {
 
   void read_groups() {
     std::map<std::string, std::map<int, Selection>> by_name; // and dimension
+    std::stable_sort(content_.groups.begin(), content_.groups.end(), [this](const auto& a, const auto& b) {
+      return n_elements(a) > n_elements(b); // a cell gets the name of the smallest group that has it
+    });
     for (const FileGroup& group : content_.groups) {
       const std::string name = group.name.empty() ? std::to_string(group.number) : group.name;
       for (const int entity : group.entities)
         for (const FileElements& elements : content_.elements.at({group.dimension, entity}))
           add_to_group(name, elements, by_name[name][group.dimension]);
     }
+    if (n_renamed_ > 0)
+      content_.remarks.push_back(fmt::format(
+          "{} are in several groups of cells, of which the smallest has them as its class and material",
+          count_of(n_renamed_, kind_)));
     for (auto& [name, of_dimensions] : by_name) {
       for (auto& entry : of_dimensions) make_set(entry.second.nodes);
       const bool is_one = are_one_region(of_dimensions);
@@ -165,6 +184,14 @@ class Builder {
       make_set(entry.second.edges);
       make_set(entry.second.faces);
     }
+  }
+
+  std::size_t n_elements(const FileGroup& group) const {
+    std::size_t n = 0;
+    for (const int entity : group.entities)
+      for (const FileElements& elements : content_.elements.at({group.dimension, entity}))
+        n += elements.tags.size();
+    return n;
   }
 
   /// Points and curves that lie in a surface of the same name change nothing of what it holds or loads; a
@@ -199,7 +226,9 @@ class Builder {
         add_face(name, elements.tags[e], FaceNodes(nodes.begin(), nodes.end()), group);
       } else if (elements.kind == kind_) {
         mesh_.group_of_cell.resize(mesh_.cells.size());
-        mesh_.group_of_cell[cell_number_.at(elements.tags[e])] = name;
+        std::string& of_cell = mesh_.group_of_cell[cell_number_.at(elements.tags[e])];
+        n_renamed_ += !of_cell.empty() && of_cell != name ? 1 : 0;
+        of_cell = name;
       } else if (elements.kind != ElementKind::point) {
         refuse(fmt::format("group '{}' has {}, which are no part of a {}", name,
                            count_of(elements.tags.size(), elements.kind), reference().name));
@@ -224,6 +253,7 @@ class Builder {
   MeshFileContent content_;
   ElementKind kind_ = ElementKind::hexahedron; ///< the cells'
   Mesh mesh_;
+  std::size_t n_renamed_ = 0;                        ///< cells of several groups
   MeshNumbers numbers_;                              ///< the file's tags
   std::unordered_map<std::size_t, int> node_number_; ///< by the file's tag; nodes of cells only
   std::unordered_map<std::size_t, std::size_t> cell_number_;

@@ -151,6 +151,7 @@ void divide_by_groups(const std::unordered_map<std::size_t, int>& group_of, Mesh
       for (auto& [group, part] : by_group) divided[{place[0], group}].push_back(std::move(part));
     }
   content.elements = std::move(divided);
+  content.has_elements_by_group = true;
   for (FileGroup& group : content.groups) {
     content.elements[{group.dimension, group.number}]; // named in the file, without elements
     group.entities = {group.number};

@@ -52,7 +52,8 @@ struct MeshFileContent {
   Tags nodes;
   std::vector<double> coordinates; ///< three for each node
   std::vector<FileGroup> groups;
-  std::vector<std::string> remarks; ///< how the groups were found
+  std::vector<std::string> remarks;   ///< how the groups were found
+  bool has_elements_by_group = false; ///< an element of several groups is listed in each
 };
 
 /// What gmsh is given. Format 2 has the groups of single elements, of which gmsh makes groups of entities.

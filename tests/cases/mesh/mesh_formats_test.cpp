@@ -131,6 +131,23 @@ TEST_CASE("every element of a file of format 2 has its own group, whatever its e
                    "element 2 of group '3' is no face");
 }
 
+TEST_CASE("a cell of several groups is one cell, and the smallest of them has it") {
+  // gmsh lists such elements once for each group in format 2.
+  std::vector<std::string> elements;
+  for (int n = 0; n < 6; ++n)
+    elements.push_back(fmt::format("{} 4 2 9 1 {}", n + 1, fmt::join(in_cube[std::size_t(n)], " ")));
+  for (int n = 0; n < 2; ++n)
+    elements.push_back(fmt::format("{} 4 2 10 1 {}", n + 7, fmt::join(in_cube[std::size_t(n)], " ")));
+  std::vector<std::string> remarks;
+  const Mesh mesh = mesh_of_text("a.msh", msh_22(elements), &remarks);
+  CHECK(mesh.cells.size() == 6);
+  CHECK(mesh.group_of_cell == std::vector<std::string>{"10", "10", "9", "9", "9", "9"});
+  CHECK(mesh.groups.at("9").nodes.size() == 8);
+  CHECK_THAT(remarks.at(0), Contains("2 tetrahedra are in several groups of cells"));
+  elements.push_back("9 4 2 9 1 1 2 3 7"); // twice in one group
+  check_is_refused("a.msh", msh_22(elements), "elements 1 and 9 are one tetrahedron");
+}
+
 TEST_CASE("tetrahedra that are all inside out are turned, and some of them are refused with their numbers") {
   auto turned = in_cube;
   for (auto& cell : turned) std::swap(cell[0], cell[1]);
