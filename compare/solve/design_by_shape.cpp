@@ -105,8 +105,8 @@ std::string fit_text(const msm::ShapeFit& fit) {
       "springs cannot follow the shapes of this mesh: the energies of strains err by {:.2g} % in the "
       "median cell and by {:.2g} % in the worst, as root mean squares over strains; with the forces "
       "that uniform strains leave on nodes by {:.2g} % over the mesh, where the best springs of single "
-      "cells err by {:.2g} %. A grid of cubes (shape = \"surface\" with fill = \"cubes\", or \"voxels\") has "
-      "the material's moduli",
+      "cells err by {:.2g} %. A grid of cubes (shape = \"surface\" with fill = \"cubes\") has the "
+      "material's moduli",
       100 * fit.median_misfit, 100 * fit.worst_misfit, 100 * fit.over_the_mesh, 100 * fit.cell_by_cell);
 }
 

@@ -4,8 +4,8 @@
 #include "cases/scene/regions.hpp"
 #include "compare/table/table.hpp"
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -125,7 +125,8 @@ std::string cells_text(const msm::BodyTerms& terms) {
     text += fmt::format(": {} parts of springs from {:.4g} to {:.4g} N/m", n_springs, springs[0], springs[1]);
   if (n_others > 0)
     text += fmt::format(", {} {}", n_others,
-                        terms.kinds.front().tetrahedra.empty() ? "midlines" : "tetrahedra of biquadratic springs");
+                        terms.kinds.front().tetrahedra.empty() ? "midlines"
+                                                               : "tetrahedra of biquadratic springs");
   if (volumes[0] != 0 || volumes[1] != 0)
     text += fmt::format(", k_v = {:.4g} MPa{}{}", volumes[0],
                         volumes[1] > volumes[0] ? fmt::format(" to {:.4g} MPa", volumes[1]) : "",

@@ -4,6 +4,7 @@
 #include "compare/thesis/regenerate.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/closed_forms.hpp"
+#include "tests/support/tetrahedra.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -102,7 +103,7 @@ TEST_CASE("every cell of an irregular mesh gets springs of its own, near those o
   cases::Case definition;
   definition.body = cases::Box{{2, 2, 2}, {{2, 2, 2}}};
   definition.material = cases::LinearElastic{0.3, 0.35};
-  definition.msm.design = GENERATE(cases::Design::linear_method, cases::Design::hybrid);
+  definition.msm.design = cases::Design::linear_method;
   cases::Scene scene = cases::make_scene(definition);
   const msm::CellStiffness cube = compare::design_for(scene).stiffness;
   scene.mesh.grid.reset();
@@ -111,14 +112,75 @@ TEST_CASE("every cell of an irregular mesh gets springs of its own, near those o
   const msm::DesignResult design = compare::design_for(scene);
   REQUIRE(design.springs.cells());
   REQUIRE(design.springs.cells()->size() == 8);
-  if (definition.msm.design == cases::Design::hybrid)
-    CHECK(design.warnings.empty());
-  else // whatever the mesh: springs alone have no nu = 0.35
-    CHECK_THAT(design.warnings.at(0), Catch::StartsWith("8 of 8 cells, the worst: the lattice's moduli"));
+  // Whatever the mesh: springs alone have no nu = 0.35.
+  CHECK_THAT(design.warnings.at(0), Catch::StartsWith("8 of 8 cells, the worst: the lattice's moduli"));
   for (const msm::CellStiffness& k : *design.springs.cells()) {
     CHECK(k.edge == Approx(cube.edge).epsilon(0.2)); // shears of up to 15 %
     CHECK(k.edge != cube.edge);
   }
+}
+
+TEST_CASE("the hybrid's springs on an irregular mesh are designed for the mesh as a whole, and say how well "
+          "they fit") {
+  cases::Case definition;
+  definition.body = cases::Box{{6, 6, 6}, {{6, 6, 6}}};
+  definition.material = cases::LinearElastic{0.3, 0.35};
+  definition.msm.design = GENERATE(cases::Design::hybrid, cases::Design::matched, cases::Design::midline);
+  cases::Scene scene = cases::make_scene(definition);
+  scene.mesh.grid.reset();
+  for (Eigen::Vector3d& x : scene.mesh.nodes.stored())
+    x += 0.1 * Eigen::Vector3d(std::sin(5 * x.y()), std::sin(4 * x.z()), 0);
+  const msm::DesignResult design = compare::design_for(scene);
+  REQUIRE(design.springs.terms());
+  CHECK(design.springs.terms()->kinds.size() == 216);
+  CHECK_THAT(design.warnings.at(0), Catch::StartsWith("springs cannot follow the shapes of this mesh"));
+  REQUIRE(design.misfit);
+  CHECK(design.misfit->largest < 0.15); // shears of up to 45 %
+  CHECK(design.springs.terms()->kinds.front().midlines.empty() ==
+        (definition.msm.design != cases::Design::midline));
+}
+
+TEST_CASE("springs on tetrahedra take the designs that edges can have, and refuse the others by name") {
+  cases::Case definition;
+  definition.body = cases::Box{{2, 2, 2}, {{2, 2, 2}}};
+  definition.material = cases::LinearElastic{0.3, 0.35};
+  cases::Scene scene = cases::make_scene(definition);
+  scene.mesh = bodies::box_of_tetrahedra({2, 2, 2});
+  using D = cases::Design;
+  for (const D one :
+       {D::hybrid, D::matched, D::midline, D::uniform, D::van_gelder, D::lloyd, D::biquadratic}) {
+    const msm::DesignResult design = compare::design_for(compare::with_design(scene, one));
+    REQUIRE(design.springs.terms());
+    CHECK(design.springs.terms()->kinds.size() == scene.mesh.cells.size());
+    REQUIRE(design.misfit);
+    if (one == D::biquadratic) CHECK(design.misfit->largest < 1e-12); // linear finite elements
+    const bool is_at_nodes = one == D::hybrid || one == D::matched || one == D::midline;
+    CHECK(msm::has_volume_patches(design.springs) == is_at_nodes);
+  }
+  for (const D one : {D::linear_method, D::moduli, D::multi_load, D::ladd_kinney, D::baudet})
+    CHECK_THROWS_WITH(compare::design_for(compare::with_design(scene, one)),
+                      Catch::Contains("is for hexahedra") && Catch::Contains("\"biquadratic\""));
+}
+
+// The energies, the reactions and the stress of volume terms at nodes come from their nodes' patches.
+TEST_CASE("fields of springs on tetrahedra have the lattice's energy and forces") {
+  cases::Case definition;
+  definition.body = cases::Box{{2, 2, 2}, {{2, 2, 2}}};
+  definition.material = cases::LinearElastic{0.3, 0.45};
+  definition.msm.design = cases::Design::hybrid;
+  cases::Scene scene = cases::make_scene(definition);
+  scene.mesh = bodies::box_of_tetrahedra({2, 2, 2});
+  const msm::SpringBody springs = compare::design_for(scene).springs;
+  const msm::Lattice lattice = msm::make_lattice(scene.mesh, springs);
+  cases::Solution solution;
+  const double size = GENERATE(0.1, 1e-7); // mm
+  solution.displacement = bodies::disturbed(msm::Points(lattice.rest.size(), Eigen::Vector3d::Zero()), size);
+  const cases::Fields fields = msm::fields(scene, springs, solution);
+  const double energy = msm::energy_at(lattice, solution.displacement);
+  double sum = 0;
+  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) sum += fields.strain_energy[c];
+  CHECK(fields.total_energy == Approx(energy).epsilon(1e-6)); // small motions: to the size over the cells'
+  CHECK(sum == Approx(energy).epsilon(1e-6));
 }
 
 // Other designs sum a shared spring over its cells, so that the half body has half of it already. Whatever
