@@ -99,6 +99,8 @@ std::vector<std::string> inexpressible(ExportTarget target, const msm::Problem& 
   if (!lattice.midlines.empty()) all.push_back(midlines_text(problem));
   if (!lattice.volume_cells.empty())
     all.push_back(fmt::format("the volume terms of {} cells", lattice.volume_cells.size()));
+  if (!lattice.volume_patches.empty())
+    all.push_back(fmt::format("the volume terms at {} nodes", lattice.volume_patches.size()));
   if (const auto n = n_power_log(lattice); n > 0) all.push_back(fmt::format("{} power-log springs", n));
   return all;
 }
@@ -131,6 +133,17 @@ void write_volume_terms_csv(const std::string& folder, const msm::Lattice& latti
     for (const msm::VolumeCell& cell : lattice.volume_cells)
       csv.row(exact(cell.stiffness), exact(cell.rest_volume), cell.is_logarithmic ? "logarithmic" : "linear",
               exact(cell.nodes));
+  });
+}
+
+/// A row for every tetrahedron of a node's patch, a quarter of whose volume counts.
+void write_volume_patches_csv(const std::string& folder, const msm::Lattice& lattice) {
+  write_csv_file(folder + "/volume_patches.csv", [&](CsvWriter& csv) {
+    csv.row("node", "stiffness_MPa", "rest_volume_mm3", "law", "node_0", "node_1", "node_2", "node_3");
+    for (const msm::VolumePatch& patch : lattice.volume_patches)
+      for (const std::array<int, 4>& places : patch.tetrahedra)
+        csv.row(patch.nodes[0], exact(patch.stiffness), exact(patch.rest_volume),
+                patch.is_logarithmic ? "logarithmic" : "linear", exact(cases::pick(patch.nodes, places)));
   });
 }
 
@@ -170,9 +183,10 @@ std::vector<std::string> write_csv_files(const std::string& folder, const msm::P
   write_volume_terms_csv(folder, lattice);
   write_tetrahedra_csv(folder, lattice);
   if (!lattice.midlines.empty()) write_midlines_csv(folder, lattice);
+  if (!lattice.volume_patches.empty()) write_volume_patches_csv(folder, lattice);
   write_springs_csv(folder, lattice);
-  const std::size_t n_others =
-      lattice.volume_cells.size() + lattice.tetrahedra.size() + lattice.midlines.size();
+  const std::size_t n_others = lattice.volume_cells.size() + lattice.tetrahedra.size() +
+                               lattice.midlines.size() + lattice.volume_patches.size();
   const auto n_negative = std::count_if(lattice.links.begin(), lattice.links.end(),
                                         [](const msm::Link& link) { return link.spring.stiffness < 0; });
   std::vector<std::string> said{
@@ -183,6 +197,9 @@ std::vector<std::string> write_csv_files(const std::string& folder, const msm::P
   if (!lattice.midlines.empty())
     said.push_back(
         fmt::format("midlines.csv: {} springs between means of four nodes", lattice.midlines.size()));
+  if (!lattice.volume_patches.empty())
+    said.push_back(fmt::format("volume_patches.csv: the tetrahedra around {} nodes with volume terms",
+                               lattice.volume_patches.size()));
   if (n_others > 0) said.push_back("design = \"network\" reads springs.csv alone, not the other terms");
   if (n_negative > 0)
     said.push_back(
@@ -218,6 +235,9 @@ std::vector<std::string> write_vtu_file(const std::string& folder, const msm::Pr
   if (!lattice.volume_cells.empty())
     said.push_back(fmt::format("not in it: the volume terms of {} cells (--to csv writes them)",
                                lattice.volume_cells.size()));
+  if (!lattice.volume_patches.empty())
+    said.push_back(fmt::format("not in it: the volume terms at {} nodes (--to csv writes them)",
+                               lattice.volume_patches.size()));
   if (!lattice.midlines.empty())
     said.push_back(fmt::format("not in it: {} (--to csv writes them)", midlines_text(problem)));
   return said;
