@@ -264,8 +264,8 @@ std::vector<AtNode> patches_at_nodes(const cases::Scene& scene, const SpringBody
 }
 
 /// Adds what the patches of a cell's nodes give it: a quarter of its volume each.
-void add_patches(mechanics::FieldSums& sums, std::size_t c, const SeenCell& cell, const cases::CellNodes& nodes,
-                 const std::vector<AtNode>& patches) {
+void add_patches(mechanics::FieldSums& sums, std::size_t c, const SeenCell& cell,
+                 const cases::CellNodes& nodes, const std::vector<AtNode>& patches) {
   mechanics::CellSums& sum = sums.cell(c);
   double pressure = 0;
   for (const int node : nodes) {

@@ -145,8 +145,8 @@ void add_cell(Lattice& lattice, const CellTerms& terms, const cases::CellNodes& 
         {cases::hexahedron_nodes(nodes), terms.volume, rest_volume, terms.is_logarithmic});
 }
 
-/// Adds a patch for every node of cells whose volume terms are at their nodes. Its stiffness is the mean of the
-/// cells', by volume.
+/// Adds a patch for every node of cells whose volume terms are at their nodes. Its stiffness is the mean of
+/// the cells', by volume.
 /// @param own  numbers and terms of these cells
 void add_patches(Lattice& lattice, const cases::Mesh& mesh,
                  const std::vector<std::pair<std::size_t, CellTerms>>& own) {
