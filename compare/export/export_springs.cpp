@@ -281,13 +281,16 @@ std::optional<ExportedMotion> exported_motion(const cases::Scene& scene) {
 
 void check_expressible(ExportTarget target, const std::string& name, const msm::Problem& problem,
                        const std::optional<ExportedMotion>& motion) {
-  const auto refuse = [&](const std::vector<std::string>& missing, const char* advice) {
+  const auto refuse = [&](const std::vector<std::string>& missing, const std::string& advice) {
     if (!missing.empty())
       throw cases::InputError(fmt::format("export: --to {} cannot express {} of the case '{}'{}",
                                           cases::name_of(target), fmt::join(missing, ", "), one_line(name),
                                           advice));
   };
-  refuse(inexpressible(target, problem), "; --to csv can, and --set msm.design=moduli makes springs alone");
+  const bool has_tetrahedra = problem.mesh.shape == cases::CellShape::tetrahedron;
+  refuse(inexpressible(target, problem),
+         fmt::format("; --to csv can, and --set msm.design={} makes springs alone",
+                     has_tetrahedra ? "van_gelder" : "moduli"));
   if (target == ExportTarget::sofa && motion) refuse(inexpressible_in_sofa(*motion), "");
 }
 
