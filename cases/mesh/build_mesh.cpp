@@ -10,7 +10,7 @@ namespace springproof::cases {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& reason) {
+[[noreturn]] void refuse_mesh_file(const std::string& reason) {
   throw std::runtime_error(reason);
 }
 
@@ -64,7 +64,7 @@ class Builder {
     if (counts.empty()) refuse_without_cells();
     const ElementKind kind = counts.begin()->first;
     if (counts.size() > 1 || (kind != ElementKind::hexahedron && kind != ElementKind::tetrahedron))
-      refuse(fmt::format(
+      refuse_mesh_file(fmt::format(
           "has {}, must have hexahedra alone or tetrahedra alone: mesh the body by one of them (gmsh makes "
           "tetrahedra where nothing is recombined and extruded by Layers); or write its closed surface as "
           "STL, which shape = \"surface\" fills with tetrahedra",
@@ -81,7 +81,7 @@ class Builder {
     bool has_surface = false;
     for (const auto& [place, of_entity] : content_.elements)
       has_surface = has_surface || (place[0] == 2 && !of_entity.empty());
-    refuse(fmt::format(
+    refuse_mesh_file(fmt::format(
         "has no hexahedra or tetrahedra{}. A file that gmsh has saved has its physical groups alone, where "
         "there are any: one of them must be the body, Physical Volume(\"body\") = {{...}};, or Mesh.SaveAll "
         "must be 1",
@@ -114,7 +114,8 @@ class Builder {
         for (std::size_t v = 0; v < n_vertices; ++v) {
           const std::size_t around = mesh_.shape == CellShape::hexahedron ? around_cell[v] : v,
                             tag = elements.nodes.at(n_vertices * e + around);
-          if (tag > 2147483647) refuse(fmt::format("has a node of number {}, must be below 2^31", tag));
+          if (tag > 2147483647)
+            refuse_mesh_file(fmt::format("has a node of number {}, must be below 2^31", tag));
           cell.push_back(static_cast<int>(tag));
         }
       }
@@ -131,12 +132,12 @@ class Builder {
     for (const int tag : used) {
       const auto found = place.find(index(tag));
       if (found == place.end())
-        refuse(fmt::format("has a {} with node {}, which does not exist", reference().name, tag));
+        refuse_mesh_file(fmt::format("has a {} with node {}, which does not exist", reference().name, tag));
       node_number_[index(tag)] = static_cast<int>(mesh_.nodes.size());
       numbers_.of_nodes.push_back(index(tag));
       mesh_.nodes.stored().emplace_back(&content_.coordinates.at(3 * found->second));
       if (!mesh_.nodes.values.back().allFinite())
-        refuse(fmt::format("has node {} at a position that is not finite", tag));
+        refuse_mesh_file(fmt::format("has node {} at a position that is not finite", tag));
     }
     for (auto& cell : mesh_.cells.stored())
       for (int& node : cell) node = node_number_[index(node)];
@@ -230,8 +231,8 @@ class Builder {
         n_renamed_ += !of_cell.empty() && of_cell != name ? 1 : 0;
         of_cell = name;
       } else if (elements.kind != ElementKind::point) {
-        refuse(fmt::format("group '{}' has {}, which are no part of a {}", name,
-                           count_of(elements.tags.size(), elements.kind), reference().name));
+        refuse_mesh_file(fmt::format("group '{}' has {}, which are no part of a {}", name,
+                                     count_of(elements.tags.size(), elements.kind), reference().name));
       }
       group.nodes.insert(group.nodes.end(), nodes.begin(), nodes.end());
     }
@@ -243,7 +244,8 @@ class Builder {
         std::lower_bound(faces_.begin(), faces_.end(), wanted,
                          [](const CellFace& face, const auto& key) { return face.vertices < key; });
     if (found == faces_.end() || found->vertices != wanted)
-      refuse(fmt::format("element {} of group '{}' is no face of a {}", tag, name, reference().name));
+      refuse_mesh_file(
+          fmt::format("element {} of group '{}' is no face of a {}", tag, name, reference().name));
     group.faces.push_back(found->around);
     for (const auto& side : sides_of(found->around)) group.edges.push_back(sorted(side));
   }
