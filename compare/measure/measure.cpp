@@ -2,7 +2,6 @@
 
 #include "cases/mesh/cell_point.hpp"
 #include "cases/mesh/sharing.hpp"
-#include "mechanics/hexahedron.hpp"
 #include "mechanics/larger.hpp"
 
 #include <Eigen/Geometry>
@@ -175,33 +174,6 @@ double largest_norm(const std::vector<cases::SymmetricTensor>& tensors, const ca
   return solution.sharing ? solution.sharing->largest(largest) : largest;
 }
 
-/// Root of the mean of |u|² over the cells at rest, by quadrature.  @param field  as of field_norm()
-double root_mean_square(const cases::Mesh& mesh, const std::vector<Vector3d>& field,
-                        const cases::Sharing* sharing) {
-  const cases::Share here = cases::share_here(mesh, sharing);
-  const cases::ReferenceCell& reference = cases::reference_cell(mesh.shape);
-  double integral = 0, volume = 0;
-  for (std::size_t c = here.cells.begin; c < here.cells.end; ++c) {
-    const cases::CellCorners corners = cases::cell_corners(mesh, c);
-    const cases::CellNodes nodes = mesh.cells[c];
-    for (const Vector3d& point : reference.points) {
-      const double weight =
-          cases::jacobian(corners, point).determinant() * reference.volume / double(reference.points.size());
-      const cases::ShapeValues shape = cases::shape_values(mesh.shape, point);
-      Vector3d value = Vector3d::Zero();
-      for (std::size_t v = 0; v < nodes.size(); ++v)
-        value += shape[v] * field[cases::index(nodes[v]) - here.nodes.begin];
-      integral += weight * value.squaredNorm();
-      volume += weight;
-    }
-  }
-  if (sharing) {
-    integral = sharing->sum(integral);
-    volume = sharing->sum(volume);
-  }
-  return std::sqrt(integral / volume);
-}
-
 double volume(const cases::Solution& solution) {
   const double here = std::accumulate(solution.cell_volume.begin(), solution.cell_volume.end(), 0.0);
   return solution.sharing ? solution.sharing->sum(here) : here;
@@ -286,18 +258,6 @@ struct Evaluation {
 };
 
 } // namespace
-
-double field_norm(const measures::Kind& kind, const cases::Mesh& mesh, const std::vector<Vector3d>& field,
-                  const cases::Sharing* sharing) {
-  if (std::holds_alternative<measures::DisplacementFieldL2>(kind))
-    return root_mean_square(mesh, field, sharing);
-  double largest = 0; // stays 0 for an empty field
-  if (!field.empty()) {
-    const Eigen::Map<const Eigen::Matrix3Xd> vectors(field[0].data(), 3, Eigen::Index(field.size()));
-    largest = vectors.colwise().norm().maxCoeff<Eigen::PropagateNaN>();
-  }
-  return sharing ? sharing->largest(largest) : largest;
-}
 
 bool can_evaluate(const cases::Measure& measure, const cases::Solution& solution) {
   if (!cases::is_of_fields(measure.kind)) return true;

@@ -23,6 +23,33 @@ Eigen::Matrix3d matrix_of(const cases::SymmetricTensor& t) {
   return matrix;
 }
 
+/// Root of the mean of |u|² over the cells at rest, by quadrature.  @param field  as of field_norm()
+double root_mean_square(const cases::Mesh& mesh, const std::vector<Vector3d>& field,
+                        const cases::Sharing* sharing) {
+  const cases::Share here = cases::share_here(mesh, sharing);
+  const cases::ReferenceCell& reference = cases::reference_cell(mesh.shape);
+  double integral = 0, volume = 0;
+  for (std::size_t c = here.cells.begin; c < here.cells.end; ++c) {
+    const cases::CellCorners corners = cases::cell_corners(mesh, c);
+    const cases::CellNodes nodes = mesh.cells[c];
+    for (const Vector3d& point : reference.points) {
+      const double weight =
+          cases::jacobian(corners, point).determinant() * reference.volume / double(reference.points.size());
+      const cases::ShapeValues shape = cases::shape_values(mesh.shape, point);
+      Vector3d value = Vector3d::Zero();
+      for (std::size_t v = 0; v < nodes.size(); ++v)
+        value += shape[v] * field[cases::index(nodes[v]) - here.nodes.begin];
+      integral += weight * value.squaredNorm();
+      volume += weight;
+    }
+  }
+  if (sharing) {
+    integral = sharing->sum(integral);
+    volume = sharing->sum(volume);
+  }
+  return std::sqrt(integral / volume);
+}
+
 double curvature(const Vector3d& before, const Vector3d& here, const Vector3d& after) {
   const Vector3d a = here - before, b = after - here, c = after - before;
   return 2 * a.cross(b).norm() / (a.norm() * b.norm() * c.norm()); // A is half the cross product
@@ -113,6 +140,18 @@ double largest_curvature(const cases::measures::Curvature& measure, const cases:
       largest = mechanics::larger(largest, curvature(deformed[i - 2], deformed[i - 1], deformed[i]));
   }
   return largest;
+}
+
+double field_norm(const cases::measures::Kind& kind, const cases::Mesh& mesh,
+                  const std::vector<Vector3d>& field, const cases::Sharing* sharing) {
+  if (std::holds_alternative<cases::measures::DisplacementFieldL2>(kind))
+    return root_mean_square(mesh, field, sharing);
+  double largest = 0; // stays 0 for an empty field
+  if (!field.empty()) {
+    const Eigen::Map<const Eigen::Matrix3Xd> vectors(field[0].data(), 3, Eigen::Index(field.size()));
+    largest = vectors.colwise().norm().maxCoeff<Eigen::PropagateNaN>();
+  }
+  return sharing ? sharing->largest(largest) : largest;
 }
 
 } // namespace springproof::compare

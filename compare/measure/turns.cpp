@@ -1,7 +1,6 @@
 #include "compare/measure/measure.hpp"
 
 #include "cases/mesh/sharing.hpp"
-#include "mechanics/hexahedron.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
