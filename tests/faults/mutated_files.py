@@ -152,6 +152,7 @@ def cube_msh():
 
 class Kind:
     """How a kind of file is made whole, and given to the program in a folder."""
+    found = FOUND
 
     def __init__(self, folder):
         self.folder = folder
@@ -246,6 +247,8 @@ class Obj(Stl):
 
 
 class Ply(Stl):
+    """The same. VTK's reader of this format aborts on some damaged files: its confined process ends, and the program says so."""
+    found = FOUND[:2]
     whole = "\n".join(["ply", "format ascii 1.0", "element vertex 8", "property float x", "property float y", "property float z", "element face 6",
                        "property list uchar int vertex_indices", "end_header", *(f"{x} {y} {z}" for x, y, z in Obj.corners),
                        *("4 " + " ".join(map(str, face)) for face in Obj.squares), ""]).encode()
@@ -442,7 +445,7 @@ def try_out(kind, count, keep):
             except subprocess.TimeoutExpired:
                 status, said = f"above {LIMIT_SECONDS:g} s", b""
             statuses[status] = statuses.get(status, 0) + 1
-            is_found = any(words in said for words in FOUND)
+            is_found = any(words in said for words in subject.found)
             if not is_found and (status == 0 or (status in (1, 2) and (said or status == 1))):
                 continue
             offenders += 1
