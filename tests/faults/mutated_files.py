@@ -208,7 +208,8 @@ class Msh(Kind):
 
 
 class Tetrahedra(Msh):
-    """Tetrahedra as gmsh writes them."""
+    """Tetrahedra as gmsh writes them in binary. gmsh crashes on some damaged ones: its confined process ends, and the program says so."""
+    found = FOUND[:2]
     name, whole = "body.msh", (MESHES / "gmsh_41_binary.msh").read_bytes()
 
     def given(self, content):
@@ -222,6 +223,7 @@ class Tetrahedra22(Tetrahedra):
 
 class TetrahedraVtu(Tetrahedra):
     """The same by meshio."""
+    found = FOUND
     name, whole = "body.vtu", (MESHES / "meshio.vtu").read_bytes()
 
 
