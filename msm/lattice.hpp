@@ -74,11 +74,11 @@ Blocks<4> volume_second_derivative(const Positions<4>& x);
 /// Two points joined by a spring. Springs of one law that cells share are one link with the sum of the cells'
 /// stiffnesses.
 ///
-/// The terms of a lattice are of several kinds: links, Midline, VolumeTerm, VolumePatch, Tetrahedron. Every kind has, by
-/// its nodes' positions x, the `energy`, N mm; the `forces` on the nodes, N, minus its gradient; the
-/// `tangent`, its second derivative: a function that returns the 3x3 block of two nodes, N/mm, clamped such
-/// that the whole is positive semidefinite where no stiffness is negative; and the `small_motion_energy` of a
-/// motion from rest, to second order. Its `edges` tell how much it is deformed.
+/// The terms of a lattice are of several kinds: links, Midline, VolumeCell, VolumePatch, Tetrahedron. Every
+/// kind has, by its nodes' positions x, the `energy`, N mm; the `forces` on the nodes, N, minus its gradient;
+/// the `tangent`, its second derivative: a function that returns the 3x3 block of two nodes, N/mm, clamped
+/// such that the whole is positive semidefinite where no stiffness is negative; and the
+/// `small_motion_energy` from rest, to second order. Its `edges` tell how much it is deformed.
 struct Link {
   static constexpr std::array<std::array<int, 2>, 1> edges{{{0, 1}}};
   int i, j; ///< i < j
@@ -129,46 +129,33 @@ struct Midline {
   }
 };
 
-inline constexpr std::array<std::array<int, 2>, 6> tetrahedron_edges{
-    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
-/// The edges of a cell of n vertices.
-template<std::size_t n>
-constexpr const auto& edges_of_cell() {
-  if constexpr (n == 4)
-    return tetrahedron_edges;
-  else
-    return cases::cell_edges;
-}
-
-/// A cell of n vertices that resists a change of its volume. Clamped, its tangent is without the second
+/// A cell that resists a change of its volume. Clamped, its tangent is without the second
 /// derivative of the volume under pressure.
-template<std::size_t n>
-struct VolumeTerm {
-  static constexpr auto& edges = edges_of_cell<n>();
-  std::array<int, n> nodes; ///< in the order of the reference cell
+struct VolumeCell {
+  static constexpr auto& edges = cases::cell_edges;
+  std::array<int, 8> nodes; ///< in the order of the reference cell
   double stiffness;         ///< k_v, MPa
   double rest_volume;       ///< mm³
   bool is_logarithmic = false;
 
   /// Returns the cell's law at these positions.
-  VolumeLaw law(const Positions<n>& x) const {
+  VolumeLaw law(const CellPositions& x) const {
     return volume_law(volume_of(x) / rest_volume, is_logarithmic);
   }
-  double energy(const Positions<n>& x) const { return stiffness * rest_volume * law(x).integral; }
-  double small_motion_energy(const Positions<n>& rest, const Positions<n>& motion) const {
-    const Positions<n> gradient = volume_gradient(rest);
+  double energy(const CellPositions& x) const { return stiffness * rest_volume * law(x).integral; }
+  double small_motion_energy(const CellPositions& rest, const CellPositions& motion) const {
+    const CellPositions gradient = volume_gradient(rest);
     double change = 0;
-    for (std::size_t v = 0; v < n; ++v) change += gradient[v].dot(motion[v]);
+    for (std::size_t v = 0; v < 8; ++v) change += gradient[v].dot(motion[v]);
     return 0.5 * stiffness / rest_volume * change * change;
   }
-  Positions<n> forces(const Positions<n>& x) const {
+  CellPositions forces(const CellPositions& x) const {
     const double pressure = stiffness * law(x).pressure;
-    Positions<n> all = volume_gradient(x);
+    CellPositions all = volume_gradient(x);
     for (Eigen::Vector3d& force : all) force *= -pressure;
     return all;
   }
-  auto tangent(const Positions<n>& x, Clamp clamp) const {
+  auto tangent(const CellPositions& x, Clamp clamp) const {
     const VolumeLaw at = law(x);
     return [=, pressure = stiffness * at.pressure, slope = stiffness / rest_volume * at.slope,
             gradient = volume_gradient(x),
@@ -179,12 +166,9 @@ struct VolumeTerm {
     };
   }
 };
-using VolumeCell = VolumeTerm<8>;
-using VolumeTetrahedron = VolumeTerm<4>;
-
-/// The tetrahedra about a node, which resist a change of the quarter of their volume that is the node's. Terms
-/// of single tetrahedra, five or six a node, lock where the volume hardly changes; these are one a node.
-/// Clamped, the tangent is that of VolumeTerm.
+/// The tetrahedra about a node, which resist a change of the quarter of their volume that is the node's. A
+/// term a tetrahedron would be five or six a node, which lock where the volume hardly changes. Clamped, the
+/// tangent is without the second derivative of the volume, as VolumeCell's.
 /// Source: the average nodal pressure of Bonet & Burton 1998.
 struct VolumePatch {
   std::vector<int> nodes;                     ///< the node, then its neighbours
@@ -218,6 +202,9 @@ struct VolumePatch {
 /// As the Green strain of a linear tetrahedron is -1/2 sum_e Delta_e B_e, this is the St. Venant-Kirchhoff
 /// energy V (mu E : E + lambda/2 (tr E)²) of the linear finite element.
 /// Source: Delingette 2008 (in two dimensions: triangular biquadratic springs), in three dimensions.
+inline constexpr std::array<std::array<int, 2>, 6> tetrahedron_edges{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
 using TetrahedronPositions = Positions<4>;
 using EdgeValues = Eigen::Matrix<double, 6, 1>; ///< in the order of tetrahedron_edges
 using EdgeMatrix = Eigen::Matrix<double, 6, 6>;
@@ -262,8 +249,7 @@ Tetrahedron make_tetrahedron(const std::array<int, 4>& nodes, const TetrahedronP
 struct Lattice {
   Points rest; ///< mm
   std::vector<Link> links;
-  std::vector<VolumeCell> volume_cells; ///< empty when no cell has a volume term
-  std::vector<VolumeTetrahedron> volume_tetrahedra{};
+  std::vector<VolumeCell> volume_cells;      ///< empty when no cell has a volume term
   std::vector<VolumePatch> volume_patches{}; ///< in the order of their first nodes
   std::vector<Tetrahedron> tetrahedra{};
   std::vector<Midline> midlines{};
@@ -275,7 +261,6 @@ template<class AnyLattice, class Action>
 void for_each_kind(AnyLattice& lattice, const Action& action) {
   action(lattice.links);
   action(lattice.volume_cells);
-  action(lattice.volume_tetrahedra);
   action(lattice.volume_patches);
   action(lattice.tetrahedra);
   action(lattice.midlines);

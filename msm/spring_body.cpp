@@ -136,11 +136,7 @@ void add_cell(Lattice& lattice, const CellTerms& terms, const cases::CellNodes& 
     const std::array<int, 4> own = cases::pick(nodes, vertices);
     lattice.tetrahedra.push_back(make_tetrahedron(own, at_nodes(own, lattice.rest), lambda, mu));
   }
-  if (terms.volume == 0) return;
-  if (nodes.size() == 4)
-    lattice.volume_tetrahedra.push_back(
-        {{nodes[0], nodes[1], nodes[2], nodes[3]}, terms.volume, rest_volume, terms.is_logarithmic});
-  else
+  if (terms.volume != 0) // tetrahedra have theirs at nodes
     lattice.volume_cells.push_back(
         {cases::hexahedron_nodes(nodes), terms.volume, rest_volume, terms.is_logarithmic});
 }

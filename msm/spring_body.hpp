@@ -39,7 +39,7 @@ struct CellTerms {
   std::vector<CellMidline> midlines{};
   double volume = 0;           ///< k_v, MPa
   bool is_logarithmic = false; ///< the volume term
-  bool is_at_nodes = false;    ///< the volume term of tetrahedra: VolumePatch in place of VolumeTerm
+  bool is_at_nodes = false;    ///< the volume term, as a tetrahedron's must be: VolumePatch, not VolumeCell
 };
 
 /// Springs that cells share.

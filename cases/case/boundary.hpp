@@ -161,9 +161,8 @@ SPRINGPROOF_FIELDS(Load, region, kind, history)
 
 /// Whether some load is a force on each node of its region, which has no limit under refinement.
 inline bool has_nodal_forces(const std::vector<Load>& loads) {
-  return std::any_of(loads.begin(), loads.end(), [](const Load& load) {
-    return std::holds_alternative<loads::NodalForce>(load.kind);
-  });
+  return std::any_of(loads.begin(), loads.end(),
+                     [](const Load& load) { return std::holds_alternative<loads::NodalForce>(load.kind); });
 }
 
 /// A mass that moves with a region, without stiffness of its own.

@@ -101,7 +101,7 @@ MeshFile read_mesh_file(Table& table, const std::string& case_path) {
 FilledSurface read_filled_surface(Table& table, const std::string& case_path) {
   FilledSurface surface;
   surface.file = read_surface_name(table.entry("file"), case_path);
-  surface.fill = table.optional("fill", read_name<Fill>).value_or(Fill::cubes); // both models have these
+  surface.fill = table.optional("fill", read_name<Fill>).value_or(surface.fill);
   surface.size =
       table.required("size", Number{"a number above 0 (mm), the length of a cell's edges", is_positive});
   surface.scale = read_scale(table);

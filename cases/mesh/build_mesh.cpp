@@ -67,7 +67,7 @@ class Builder {
       refuse_mesh_file(fmt::format(
           "has {}, must have hexahedra alone or tetrahedra alone: mesh the body by one of them (gmsh makes "
           "tetrahedra where nothing is recombined and extruded by Layers); or write its closed surface as "
-          "STL, which shape = \"surface\" fills with tetrahedra",
+          "STL, which shape = \"surface\" fills",
           list_of(counts)));
     kind_ = kind;
     mesh_.shape = kind == ElementKind::hexahedron ? CellShape::hexahedron : CellShape::tetrahedron;

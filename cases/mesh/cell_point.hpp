@@ -13,8 +13,8 @@ struct CellPoint {
   Eigen::Vector3d beyond; ///< the way from there to the point, in its coordinates to first order
 };
 
-/// Weights of the cell's nodes in the point's displacement u = sum_v w_v u_v: the shape functions at a point
-/// of the cell; outside, with the first order that leads there, so that a linear displacement is
+/// Weights of the cell's nodes in the point's displacement u = sum_v w_v u_v: the shape functions at a
+/// point of the cell; outside, with the first order that leads there, so that a linear displacement is
 /// reproduced and weights grow with the distance and no faster. They add up to 1.
 ShapeValues weights_at(CellShape shape, const CellPoint& point);
 
@@ -36,7 +36,8 @@ struct NodeWeight {
 std::vector<NodeWeight> on_nodes(const std::vector<WeightedPoint>& points, const Mesh& mesh);
 
 /// The cells of the body at rest that hold a point, in ascending order: one inside a cell, several on the
-/// faces, edges and vertices between them, none outside the body. A cell's map is inverted by Newton's method; 1e-6 of its edge counts as inside.
+/// faces, edges and vertices between them, none outside the body. A cell's map is inverted by Newton's
+/// method; 1e-6 of its edge counts as inside.
 /// @param point  mm    @param among  the numbers of the cells that are looked at
 std::vector<std::size_t> cells_at(const Mesh& mesh, const Eigen::Vector3d& point,
                                   const Range& among = {0, std::numeric_limits<std::size_t>::max()});
@@ -44,7 +45,6 @@ std::vector<std::size_t> cells_at(const Mesh& mesh, const Eigen::Vector3d& point
 /// The place of a point in the reference cell, by Newton's method, to 1e-9 of the cell's largest edge: in it
 /// or next to it. Nothing far outside of the cell, where its map may fold back.
 /// @param point  mm
-std::optional<Eigen::Vector3d> place_in_cell(const CellCorners& corners,
-                                             const Eigen::Vector3d& point);
+std::optional<Eigen::Vector3d> place_in_cell(const CellCorners& corners, const Eigen::Vector3d& point);
 
 } // namespace springproof::cases

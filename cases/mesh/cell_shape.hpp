@@ -36,11 +36,11 @@ constexpr std::array<std::size_t, 8> around_cell{0, 1, 3, 2, 4, 5, 7, 6};
 /// Edges and faces of a cell by its vertices. Faces are given as seen from outside, anticlockwise.
 struct ReferenceCell {
   CellShape shape;
-  const char *name, *names; ///< of one and of several, for messages
+  const char *name, *names; ///< singular and plural, for messages
   std::size_t n_vertices;
   std::vector<std::array<int, 2>> edges;
   std::vector<FaceNodes> faces;
-  double volume; ///< of the reference cell
+  double volume; ///< without a unit
   /// Points in the reference cell of equal weight, exact for polynomials of degree 2 at least.
   std::vector<Eigen::Vector3d> points;
 };

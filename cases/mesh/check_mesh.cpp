@@ -162,7 +162,7 @@ class MeshCheck {
   }
 
   [[noreturn]] void refuse_strays(const std::vector<Stray>& strays) const {
-    const auto largest_share = [this](const Stray& stray) { // of a vertex
+    const auto largest_share = [this](const Stray& stray) { // the vertex that has it
       const ShapeValues shape = shape_values(mesh_.shape, stray.at);
       return std::max_element(shape.begin(), shape.end()) - shape.begin();
     };

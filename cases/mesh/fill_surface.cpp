@@ -78,10 +78,6 @@ Surface scaled_surface(const FilledSurface& body, std::vector<std::string>* rema
   return surface;
 }
 
-Voxels as_voxels(const FilledSurface& body) {
-  return {body.file, body.size, body.scale};
-}
-
 /// Number of parts that share no vertex: bodies of their own, bodies that overlap, or cavities.
 std::size_t n_parts(const TriangleMesh& surface) {
   boost::disjoint_sets_with_storage<> parts(surface.vertices.size());
@@ -194,8 +190,12 @@ double largest_distance(const TriangleMesh& from, const TriangleMesh& to) {
 
 } // namespace
 
-double count_cells(const FilledSurface& body) {
-  if (body.fill == Fill::cubes) return count_voxels(as_voxels(body)).in_body;
+std::optional<Voxels> as_voxels(const FilledSurface& body) {
+  if (body.fill != Fill::cubes) return std::nullopt;
+  return Voxels{body.file, body.size, body.scale};
+}
+
+double count_tetrahedra(const FilledSurface& body) {
   return enclosed_volume(joined(scaled_surface(body, nullptr))) /
          (volume_of_regular * std::pow(body.size, 3));
 }
@@ -204,8 +204,8 @@ Mesh fill_surface(const FilledSurface& body, std::vector<std::string>& remarks) 
   const Surface triangles = scaled_surface(body, &remarks);
   const TriangleMesh surface = joined(triangles);
   if (surface.triangles.empty()) body.file.refuse("has no triangle with three different corners");
-  Mesh mesh = body.fill == Fill::cubes ? make_voxel_mesh(triangles, as_voxels(body))
-                                       : fill_with_tetrahedra(surface, body, remarks);
+  const std::optional<Voxels> voxels = as_voxels(body);
+  Mesh mesh = voxels ? make_voxel_mesh(triangles, *voxels) : fill_with_tetrahedra(surface, body, remarks);
   double volume = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) volume += cell_volume(cell_corners(mesh, c));
   const TriangleMesh outside = triangles_of_faces(mesh, boundary_faces(mesh));

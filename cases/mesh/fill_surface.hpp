@@ -3,6 +3,8 @@
 #include "cases/case/body.hpp"
 #include "cases/mesh/mesh.hpp"
 
+#include <optional>
+
 namespace springproof::cases {
 
 /// The body of a closed surface, filled with tetrahedra by gmsh or with the cubes of a voxel body.
@@ -12,7 +14,11 @@ namespace springproof::cases {
 /// more than two triangles or crosses itself; if the cells would be too many; if the body falls into pieces
 Mesh fill_surface(const FilledSurface& body, std::vector<std::string>& remarks);
 
-/// About how many tetrahedra or cubes that makes.
-double count_cells(const FilledSurface& body);
+/// The same body of cubes, or nothing where tetrahedra fill it.
+std::optional<Voxels> as_voxels(const FilledSurface& body);
+
+/// About how many tetrahedra fill a body.
+/// @throws InputError if its surface cannot be read
+double count_tetrahedra(const FilledSurface& body);
 
 } // namespace springproof::cases

@@ -94,7 +94,7 @@ class Midpoints {
 /// The parts of a face: a corner's of a quadrangle is one, and a triangle has one in the middle too.
 std::vector<FaceNodes> parts_of_face(const FaceNodes& face, Midpoints& midpoints) {
   const std::size_t n = face.size();
-  FaceNodes middles; // of the sides
+  FaceNodes middles; // one per side
   for (const auto& [from, to] : sides_of(face)) middles.push_back(midpoints.of({from, to}));
   std::vector<FaceNodes> parts;
   for (std::size_t v = 0; v < n; ++v) {

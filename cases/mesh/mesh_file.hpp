@@ -16,7 +16,7 @@ enum class ElementKind { point, line, triangle, quadrangle, tetrahedron, hexahed
 struct ElementKindTraits {
   ElementKind kind;
   int dimension, n_corners;
-  const char *name, *names; ///< of one and of several, for messages
+  const char *name, *names; ///< singular and plural, for messages
 };
 inline constexpr std::array<ElementKindTraits, 9> element_kinds{
     {{ElementKind::point, 0, 1, "point", "points"},

@@ -9,16 +9,16 @@ namespace springproof::cases {
 std::string name_in_dimension(const std::string& name, int dimension);
 
 /// Reads a mesh of hexahedra or of tetrahedra, linear or of a higher order, whose corners are taken alone: a
-/// gmsh mesh (.msh, formats 2 and 4), a VTK file (.vtu, .vtk), or what gmsh makes of a .geo. Physical groups
-/// of every dimension become the mesh's groups, under their names, or their numbers where they have none; a
-/// VTK file has whole numbers of its cells as groups. Groups with the same name are one if the group of the
-/// highest dimension, below 3, has all their nodes; else a group of nodes gets its name_in_dimension(), and
-/// one of cells is in group_of_cell alone. Nodes that no cell has are left out; equal cuboids along the axes
-/// become a grid (find_grid). Tetrahedra that are all inside out are turned.
+/// gmsh mesh (.msh, formats 2 and 4), a VTK file (.vtu, .vtk), or what gmsh makes of a .geo. Physical
+/// groups of every dimension become the mesh's groups, under their names, or their numbers where they have
+/// none; a VTK file has whole numbers of its cells as groups. Groups with the same name are one if the
+/// one of the highest dimension, below 3, has all their nodes; else a group of nodes gets its
+/// name_in_dimension(), and one of cells is in group_of_cell alone. Nodes that no cell has are left out;
+/// equal cuboids along the axes become a grid (find_grid). Tetrahedra that are all inside out are turned.
 /// @param remarks  receives what was left out or changed, and where groups come from
 /// @throws InputError, at the place of `file` in the case file, if it cannot be read or is of another format;
-/// if it has cells of no shape that a mesh can have, or of several; if check_mesh() refuses it; if an element
-/// of a group is not part of a cell
+/// if it has cells of no shape that a mesh can have, or of several; if check_mesh() refuses it; if a group
+/// has an element that is not part of a cell
 Mesh read_mesh(const MeshFile& mesh, std::vector<std::string>* remarks = nullptr);
 
 struct MeshFileContent;

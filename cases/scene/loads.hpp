@@ -16,8 +16,7 @@ std::function<double(int node)> modelled_share(const Scene& scene);
 /// Makes nodes and parts of a patch's load from its points: a nodal force shared by their weights, all of it
 /// on the modelled part of a symmetric scene.
 /// @param mesh  the points' mesh     @param share  modelled_share() of the scene
-void give_to_nodes(Scene::AppliedLoad& patch, const Mesh& mesh,
-                   const std::function<double(int node)>& share);
+void give_to_nodes(Scene::AppliedLoad& patch, const Mesh& mesh, const std::function<double(int node)>& share);
 
 /// A force (N) or a displacement (mm) of one node.
 struct NodeVector {

@@ -135,6 +135,11 @@ msm::DesignRequest from_case(const DesignOptions& o, cases::Element element) {
   if (n_materials(o) > 0)
     throw cases::InputError("command line: --case brings its own material; leave the others out");
   const cases::Scene scene = make_scene_within_memory(cases::read_case(o.case_file, o.settings));
+  if (scene.mesh.shape == cases::CellShape::tetrahedron)
+    throw cases::InputError(o.case_file +
+                            ": a design is of one hexahedral cell, and the springs of tetrahedra "
+                            "are fitted to the whole mesh: springproof run CASE --only msm "
+                            "tells what they can do");
   return design_request(scene.definition.material, cases::cell_vertices(scene.mesh, 0), scene.definition.msm,
                         element);
 }

@@ -63,7 +63,8 @@ std::optional<std::array<int, 3>> finer_cells(const Comparison& comparison) {
   const cases::Case& definition = comparison.scene.definition;
   const auto* box = std::get_if<cases::Box>(&definition.body);
   const bool is_given = cases::facts_of(definition.msm.design).source == cases::DesignSource::file;
-  if (!box || cases::has_nodal_forces(definition.loads) || is_given || 8 * comparison.scene.mesh.cells.size() > most_cells)
+  if (!box || cases::has_nodal_forces(definition.loads) || is_given ||
+      8 * comparison.scene.mesh.cells.size() > most_cells)
     return std::nullopt;
   std::array<int, 3> cells = box->cells;
   for (int& n : cells) n *= 2;
@@ -106,8 +107,12 @@ std::vector<NextCommand> next_commands(const RunOptions& run, const Comparison& 
   const cases::Case& definition = comparison.scene.definition;
   const Answers& answers = comparison.answers;
   const auto is_skipped = [](const Answer& side) { return side.solution.status == cases::Status::skipped; };
-  if (is_skipped(answers.fem) || is_skipped(answers.msm)) return {{line_of(run, definition), "both models"}};
   std::vector<NextCommand> next;
+  if (is_skipped(answers.fem) || is_skipped(answers.msm)) {
+    if (comparison.scene.mesh.shape == cases::CellShape::hexahedron) // others have springs alone
+      next.push_back({line_of(run, definition), "both models"});
+    return next;
+  }
   if (answers.fem.converged() && answers.msm_source.empty() && !comparison.measures.empty())
     next.push_back({line_of(run, definition, {"--designs", "all"}),
                     answers.msm.converged() ? "other designs" : "designs that may hold here"});

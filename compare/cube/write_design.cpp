@@ -318,10 +318,11 @@ Json springs_of_case(const Comparison& comparison) {
   if (!design || !comparison.answers.msm_source.empty()) return nullptr;
   const cases::Msm& options = comparison.scene.definition.msm;
   const bool is_network = options.design == cases::Design::network; // without cells
+  const bool has_cube = !is_network && comparison.scene.mesh.shape == cases::CellShape::hexahedron;
   const std::string name = cases::name_of(options.design);
   Json document = attempt_to_json(
-      is_network ? DesignAttempt{name, design, {}, {}, {}, options}
-                 : attempt_of(name, *design, options, cases::cell_vertices(comparison.scene.mesh, 0)));
+      has_cube ? attempt_of(name, *design, options, cases::cell_vertices(comparison.scene.mesh, 0))
+               : DesignAttempt{name, design, {}, {}, {}, options});
   document["design"] = name;
   document["kinds_of_cells"] = n_kinds(design->springs);
   if (is_network) document["moduli"] = nullptr;

@@ -168,8 +168,7 @@ void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis
                              const msm::CellVertices& vertices);
 
 /// Writes into a folder the body's modes side by side: body_modes.csv and body_modes.vtu, and their plot.
-void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes,
-                            const cases::Mesh& mesh);
+void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes, const cases::Mesh& mesh);
 
 void write_vibrations_text(std::ostream& out, const VibrationStudy& study);
 
@@ -179,7 +178,6 @@ nlohmann::ordered_json vibrations_to_json(const VibrationStudy& study);
 
 /// FOLDER/NAME_modes.csv, and FOLDER/NAME_modes.vtu with the shapes that were matched.
 /// @throws InputError if a file cannot be written
-void write_vibrations_files(const std::string& folder, const VibrationStudy& study,
-                            const cases::Mesh& mesh);
+void write_vibrations_files(const std::string& folder, const VibrationStudy& study, const cases::Mesh& mesh);
 
 } // namespace springproof::compare

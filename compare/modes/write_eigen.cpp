@@ -214,8 +214,7 @@ void write_eigenspaces_files(const std::string& folder, const EigenspaceAnalysis
   write_mode_sheet(folder, "msm_modes", analysis.msm, analysis.msm_spaces, vertices);
 }
 
-void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes,
-                            const cases::Mesh& mesh) {
+void write_free_modes_files(const std::string& folder, const FreeBodyModes& modes, const cases::Mesh& mesh) {
   std::vector<cases::PointField> fields;
   Json rows = free_modes_to_json(modes);
   for (std::size_t m = 0; m < modes.pairs.size(); ++m) {
@@ -260,8 +259,7 @@ Json vibrations_to_json(const VibrationStudy& study) {
           {"modes", designs.front()["modes"]}};
 }
 
-void write_vibrations_files(const std::string& folder, const VibrationStudy& study,
-                            const cases::Mesh& mesh) {
+void write_vibrations_files(const std::string& folder, const VibrationStudy& study, const cases::Mesh& mesh) {
   std::vector<cases::PointField> fields;
   const auto add = [&](const std::string& model, const MatchedModes& mode, const Eigen::VectorXd& shape) {
     fields.push_back({fmt::format("{}_mode_{}", model, mode.fem_mode + 1),

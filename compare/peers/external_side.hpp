@@ -38,8 +38,8 @@ double same_place(const cases::Mesh& mesh);
 
 /// Displacements in the order of the mesh's nodes, matched by position.
 /// @throws InputError if a given node lies at no node of the mesh, or a node is given twice or not at all
-std::vector<Eigen::Vector3d>
-match_nodes(const cases::Mesh& mesh, const std::vector<GivenDisplacement>& given, const std::string& path);
+std::vector<Eigen::Vector3d> match_nodes(const cases::Mesh& mesh, const std::vector<GivenDisplacement>& given,
+                                         const std::string& path);
 
 /// Reads a file by its ending: .csv, or one of VTK's.
 /// @throws InputError as the two formats' readers, or if it has another ending

@@ -33,7 +33,7 @@ Lengths lengths(const std::vector<Eigen::Vector3d>& points) {
 struct Surface {
   std::vector<std::size_t> nodes; ///< numbers in the mesh, in the surface's order
   std::vector<long> faces;
-  std::size_t corners = 0; ///< of each face
+  std::size_t corners = 0; ///< a face
   Lengths rest;
   bool operator==(const Surface& other) const { return rest == other.rest && faces == other.faces; }
 };

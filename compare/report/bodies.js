@@ -16,7 +16,7 @@ function unique_lines(pairs) {
 
 function surface_of(of_body) {
   const triangles = [], edges = [], diagonals = [];
-  const n = of_body.corners; // of a face, 3 or 4
+  const n = of_body.corners; // 3 or 4 a face
   for (let f = 0; f < of_body.faces.length; f += n) {
     const face = of_body.faces.slice(f, f + n), [a, b, c, d] = face;
     triangles.push(a, b, c);

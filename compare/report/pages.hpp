@@ -49,10 +49,10 @@ struct BodyView {
 BodyView view_of(const Comparison& comparison, const std::string& id, Overlay overlay);
 
 /// The views' geometry for the page's script: {"bodies": [{"unit_mm", "rest": [x, y, z, ...], "corners": 4,
-/// "faces": [a, b, c, d, ...]}], "views": [{"id", "largest_scale", "title", "group", "description", "command", "measures",
-/// "failures", "fem": {"body", "unit_mm", "displacement": [...]}, "springs": {...}}]}. Lengths are whole
-/// numbers of a unit that leaves them five digits. Bodies are surfaces alone, and views of the same body
-/// share it. A side without an answer is left out.
+/// "faces": [a, b, c, d, ...]}], "views": [{"id", "largest_scale", "title", "group", "description",
+/// "command", "measures", "failures", "fem": {"body", "unit_mm", "displacement": [...]}, "springs": {...}}]}.
+/// Lengths are whole numbers of a unit that leaves them five digits. Bodies are surfaces alone, and views of
+/// the same body share it. A side without an answer is left out.
 nlohmann::ordered_json views_to_json(const std::vector<BodyView>& views);
 
 /// The surface that a case names, at rest and as each model has moved it, for the page's script: {"unit_mm",

@@ -7,9 +7,11 @@ function kinds_of(springs) {
   const powers = springs.exponents || [];
   if (springs.stiffness_N_per_m)
     return [12, 12, 4].map((n, kind) => ({ kind, axes: new Set(), n, stiffness: springs.stiffness_N_per_m[kind], exponent: powers[kind] }));
-  const found = new Map();
-  for (const spring of springs.cell ? springs.cell.springs : []) {
-    const [from, to] = spring.vertices, axes = [0, 1, 2].filter((axis) => ((from ^ to) >> axis) & 1), kind = axes.length - 1;
+  const found = new Map(), of_cell = springs.cell ? springs.cell.springs : [];
+  const is_tetrahedron = of_cell.every((spring) => Math.max(...spring.vertices) < 4); // all of its springs are edges
+  for (const spring of of_cell) {
+    const [from, to] = spring.vertices, axes = is_tetrahedron ? [] : [0, 1, 2].filter((axis) => ((from ^ to) >> axis) & 1);
+    const kind = is_tetrahedron ? 0 : axes.length - 1;
     const key = [kind, general(spring.stiffness_N_per_m), spring.exponent].join(" ");
     if (!found.has(key)) found.set(key, { kind, axes: new Set(), n: 0, stiffness: spring.stiffness_N_per_m, exponent: spring.exponent });
     found.get(key).axes.add(axes.map((axis) => "xyz"[axis]).join(""));

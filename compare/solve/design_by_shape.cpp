@@ -151,7 +151,7 @@ void check_design(const cases::Scene& scene) {
   const auto materials = cases::materials_of(scene.definition);
   if (!std::all_of(materials.begin(), materials.end(), cases::is_isotropic))
     throw cases::InputError(options.where, "springs on tetrahedra are for isotropic materials; use a grid of "
-                                           "cubes along the fibre, or finite elements alone (--only fem)");
+                                           "cubes along the fibre");
 }
 
 } // namespace

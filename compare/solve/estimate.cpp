@@ -117,6 +117,7 @@ constexpr double cells_a_node = 5; ///< tetrahedra, in a body of many
 BodySize size_of(const cases::Scene& scene) {
   BodySize body{double(scene.mesh.nodes.size()), double(scene.mesh.cells.size()), {}};
   body.outline.definition = scene.definition;
+  body.outline.mesh.shape = scene.mesh.shape;
   body.outline.mesh.grid = scene.mesh.grid;
   return body;
 }
@@ -134,14 +135,16 @@ std::optional<BodySize> size_of(const cases::Case& definition) try {
     }
     return body;
   }
-  if (const auto* surface = std::get_if<cases::FilledSurface>(&definition.body)) {
+  const auto* surface = std::get_if<cases::FilledSurface>(&definition.body);
+  const std::optional<cases::Voxels> cubes = surface ? cases::as_voxels(*surface) : std::nullopt;
+  if (surface && !cubes) {
     body.outline.mesh.grid.reset();
-    body.n_cells = std::max(1., cases::count_cells(*surface));
-    body.n_nodes = surface->fill == cases::Fill::cubes ? std::pow(std::cbrt(body.n_cells) + 1, 3)
-                                                       : body.n_cells / cells_a_node + 10;
+    body.outline.mesh.shape = cases::CellShape::tetrahedron;
+    body.n_cells = std::max(1., cases::count_tetrahedra(*surface));
+    body.n_nodes = body.n_cells / cells_a_node + 10;
     return body;
   }
-  if (const auto* voxels = std::get_if<cases::Voxels>(&definition.body)) {
+  if (const auto* voxels = cubes ? &*cubes : std::get_if<cases::Voxels>(&definition.body)) {
     const auto [in_body, of_grid] = cases::count_voxels(*voxels);
     body.n_cells = std::max(1., in_body);
     grid.cells = of_grid;

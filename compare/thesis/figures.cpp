@@ -35,7 +35,7 @@ Eigen::Matrix3d oblique_view() {
 struct Face {
   cases::FaceNodes nodes; ///< around the face
   cases::Few<Eigen::Vector3d, 4> corners;
-  Eigen::Vector3d normal() const { // of a quadrangle across its diagonals
+  Eigen::Vector3d normal() const { // across a quadrangle's diagonals
     return (corners[2] - corners[0]).cross(corners.back() - corners[1]).normalized();
   }
 };

@@ -61,7 +61,7 @@ struct Strains {
 
 struct MeshSpring {
   std::array<int, 2> nodes;
-  Vector3d direction; ///< of unit length, from the first node to the second
+  Vector3d direction; ///< unit vector from the first node to the second
   double length;
   double stiffness;
 };
@@ -101,16 +101,13 @@ struct NodeMisfit {
   double mean_stiffness = 0;                                                ///< D, N/mm
   Eigen::Matrix<double, 3, 6> forces = Eigen::Matrix<double, 3, 6>::Zero(); ///< (f_k - f)/√D
   Matrix6 energies = Matrix6::Zero();                                       ///< √V S (C_k - C) S
-  int mirrored =
-      0; ///< bits of the axes whose plane of symmetry the node is on: there V, D and all sums are halves
+  int mirrored = 0; ///< bits of axes whose plane of symmetry has the node: V, D and sums are halves there
   Strains strains() const { return Strains(mu, kappa); }
   /// The other half's part of what is odd along an axis is its opposite.
   void leave_what_mirrors_leave() {
     for (int axis = 0; axis < 3 && mirrored != 0; ++axis) {
       if ((mirrored >> axis & 1) == 0) continue;
-      const auto is_odd = [&](int strain) {
-        return strain >= 3 && strain - 3 != axis;
-      }; // shear with this axis
+      const auto is_odd = [&](int strain) { return strain >= 3 && strain - 3 != axis; }; // shear with it
       for (int strain = 0; strain < 6; ++strain) {
         for (int c = 0; c < 3; ++c)
           if ((c == axis) != is_odd(strain)) forces(c, strain) = 0;

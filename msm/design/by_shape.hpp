@@ -16,7 +16,7 @@ namespace springproof::msm {
 const std::vector<std::array<int, 2>>& springs_of(cases::CellShape shape);
 
 struct CellFit {
-  std::vector<double> stiffness; ///< of springs_of(), N/mm
+  std::vector<double> stiffness; ///< one per spring of springs_of(), N/mm
   double misfit;                 ///< root mean square over strains
 };
 
@@ -26,7 +26,7 @@ CellFit fit_cell(const cases::CellCorners& corners, const mechanics::ElasticModu
 
 /// What springs are fitted to.
 struct FitRequest {
-  std::vector<mechanics::ElasticModuli> moduli; ///< of each cell, mu > 0
+  std::vector<mechanics::ElasticModuli> moduli; ///< one per cell, mu > 0
   double split;                                 ///< t of hybrid_method()
   std::map<int, int> axes_of_node{};            ///< nodes on planes of symmetry, bits of the axes across them
 };

@@ -163,7 +163,7 @@ class DirectSystem : public SpringSystem {
       return std::any_of(terms.begin(), terms.end(), [](const auto& term) { return term.stiffness < 0; });
     };
     return has_negative_springs() || !lattice.tetrahedra.empty() || has_negative(lattice.volume_cells) ||
-           has_negative(lattice.volume_tetrahedra) || has_negative(lattice.volume_patches);
+           has_negative(lattice.volume_patches);
   }
 
   double reaction(const Vector& displacement) override {

@@ -1,6 +1,7 @@
 // What the confined process answers about a mesh or a filled surface, as a target for libFuzzer: gmsh or VTK
-// read a stranger's file there, and may have been taken over by it. gmsh itself, which cannot be built with the
-// sanitizers here, may crash: that is what it is confined for, and what tests/faults/mutated_files.py tries.
+// read a stranger's file there, and may have been taken over by it. gmsh itself, which cannot be built with
+// the sanitizers here, may crash: that is what it is confined for, and what tests/faults/mutated_files.py
+// tries.
 
 #include "cases/mesh/read_mesh.hpp"
 #include "tests/fuzz/promise.hpp"

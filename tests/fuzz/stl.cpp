@@ -1,8 +1,8 @@
 // Surfaces as the confined process answers, which VTK's reader may have been taken over in, and the cells
 // that they are filled with: a target for libFuzzer.
 
-#include "cases/mesh/vtk_functions.hpp"
 #include "cases/mesh/voxels.hpp"
+#include "cases/mesh/vtk_functions.hpp"
 #include "tests/fuzz/promise.hpp"
 
 #include <Eigen/Geometry>

@@ -149,9 +149,9 @@ TEST_CASE("the gradient of a cell's volume is its derivative") {
   const auto gradient = msm::volume_gradient(x);
   for (int v = 0; v < 8; ++v)
     for (int a = 0; a < 3; ++a) {
-      const double difference = (msm::volume_of(moved(x, v, a, volume_step)) -
-                                 msm::volume_of(moved(x, v, a, -volume_step))) /
-                                (2 * volume_step);
+      const double difference =
+          (msm::volume_of(moved(x, v, a, volume_step)) - msm::volume_of(moved(x, v, a, -volume_step))) /
+          (2 * volume_step);
       CHECK(gradient[static_cast<std::size_t>(v)][a] == Approx(difference).margin(1e-11)); // see volume_step
     }
 }

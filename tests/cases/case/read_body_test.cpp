@@ -33,8 +33,7 @@ TEST_CASE("a mesh of VTK's names its groups, and a surface says what fills it") 
   CHECK(surface.size == 2);
   CHECK(surface.scale == 1000);
   CHECK(surface.fill == Fill::cubes);
-  CHECK(std::get<FilledSurface>(read("shape = 'surface'\nfile = 'a.obj'\nsize = 2\n")).fill ==
-        Fill::cubes);
+  CHECK(std::get<FilledSurface>(read("shape = 'surface'\nfile = 'a.obj'\nsize = 2\n")).fill == Fill::cubes);
   CHECK_THROWS_WITH(read("shape = 'surface'\nfile = 'a.obj'\n"), Catch::Contains("body.size"));
 }
 

@@ -49,8 +49,7 @@ std::string reason(const Mesh& mesh) {
 }
 
 /// Gives cells' nodes of a plane, from y = 1 on, copies that other cells do not have.
-void unmerge(Mesh& mesh, const std::vector<std::size_t>& cells, double x,
-             const Vector3d& shift = {0, 0, 0}) {
+void unmerge(Mesh& mesh, const std::vector<std::size_t>& cells, double x, const Vector3d& shift = {0, 0, 0}) {
   std::map<int, int> copies;
   for (const std::size_t cell : cells)
     for (int& node : mesh.cells.stored()[cell]) {

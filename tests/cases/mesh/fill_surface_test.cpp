@@ -145,7 +145,7 @@ TEST_CASE("a cube in every format is filled with tetrahedra that have its volume
 
 TEST_CASE("an ellipsoid in metres is filled near its surface, and finer cells are nearer") {
   Polygons body = ellipsoid_of_polygons();
-  double enclosed = 0; // of its polygons, which are plane to rounding
+  double enclosed = 0; // by its polygons, which are plane to rounding
   for (const auto& face : body.faces)
     for (std::size_t v = 1; v + 1 < face.size(); ++v)
       enclosed += body.vertices[index(face[0])].dot(

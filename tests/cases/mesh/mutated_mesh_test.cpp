@@ -16,7 +16,7 @@ using namespace cases;
 
 namespace {
 
-constexpr int n_files = 500; ///< of each kind
+constexpr int n_files = 500; ///< a kind
 
 /// A tetrahedron about the origin's corner.
 const std::map<std::string, std::string> surfaces{

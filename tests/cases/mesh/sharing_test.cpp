@@ -10,7 +10,7 @@ TEST_CASE("every node and every cell is one rank's, and a rank has the vertices 
   Grid holes{{5, 4, 7}, {1, 1, 1}, {0, 0, 0}, {}};
   for (std::size_t c = 0; c < holes.n_lattice_cells(); ++c) holes.present.push_back(c % 5 != 2);
   for (const Mesh& mesh : {make_box_mesh({5, 4, 7}, {5, 4, 7}), make_grid_mesh(holes),
-                              refine(make_box_mesh({1, 2, 3}, {1, 2, 3}))})
+                           refine(make_box_mesh({1, 2, 3}, {1, 2, 3}))})
     for (const int n_ranks : {1, 2, 3, 8, 500}) { // there are fewer cells than 500
       Range last_nodes, last_cells;
       for (int rank = 0; rank < n_ranks; ++rank) {

@@ -68,6 +68,28 @@ TEST_CASE("one side alone is solved when asked for, and the other is skipped") {
   CHECK(document["cases"][0]["measures"][0]["msm"].is_number());
 }
 
+TEST_CASE(
+    "tetrahedra have springs alone: what needs a cell or both models says so, and nothing is no number") {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path / "case.toml").string();
+  std::ofstream(file)
+      << "schema = 1\nname = \"block\"\ndescription = \"two materials\"\n[body]\nshape = \"mesh\"\n"
+         "file = \""
+      << SPRINGPROOF_SOURCE_DIR
+      << "/tests/cases/mesh/files/gmsh_41_text.msh\"\n[material]\nmodel = \"linear_elastic\"\n"
+         "youngs_modulus = 0.3\npoissons_ratio = 0.3\n[[fixed]]\nregion = \"left\"\n[[load]]\n"
+         "kind = \"traction\"\nregion = \"right\"\nvalue = [0.001, 0, 0]\n[[measure]]\n"
+         "name = \"volume\"\nkind = \"volume\"\n";
+  check_refused("run " + file, "--only msm");
+  check_refused("design --case " + file, "fitted to the whole mesh");
+  check_refused("eigen " + file, "mesh of tetrahedra");
+  const std::string text = printed_by("run --only msm " + file);
+  CHECK_THAT(text, !Catch::Contains("nan") && !Catch::Contains("both models"));
+  const auto document = document_of("run --json --only msm " + file);
+  CHECK(document["cases"][0]["msm"]["status"] == "converged");
+  CHECK(document["cases"][0]["measures"][0]["msm"].get<double>() == Approx(2).epsilon(0.02)); // hardly loaded
+}
+
 TEST_CASE("a broken case ends in exit status 2, one message and no files, even behind a good case") {
   const TemporaryFolder folder;
   const fs::path broken = folder.path / "broken.toml", out = folder.path / "out";

@@ -58,7 +58,8 @@ TEST_CASE("Table 4.2: eigenvalues and multiplicities of both cells at nu = 0", "
     if (figure.measure.find("multiplicity") != std::string::npos) {
       ++n_spaces;
       CHECK(spaces[index].dimension == figure.value);
-    } else { // two printed digits, and the thesis computed from stiffnesses rounded to three: half a unit of each
+    } else { // two printed digits, and the thesis computed from stiffnesses rounded to three: half a unit of
+             // each
       CHECK(spaces[index].eigenvalue == Approx(figure.value).margin(0.0075));
     }
   }

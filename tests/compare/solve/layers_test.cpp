@@ -67,7 +67,8 @@ TEST_CASE("springs know the layers' materials: twice as stiff above is half the 
         0.7 * stretch(0.2, 0.2)); // three of four cells are as before, hindered at one side
 }
 
-TEST_CASE("a ranking gives midlines the law that a case file gives them: Hooke's in layers of two exponents") {
+TEST_CASE(
+    "a ranking gives midlines the law that a case file gives them: Hooke's in layers of two exponents") {
   cases::Case two = column(1, 2);
   two.material = cases::LinearElastic{1, 0.3};
   two.region_materials.front().material = cases::LinearElastic{2, 0.4};

@@ -72,8 +72,7 @@ TEST_CASE("a ranking's text ends with its advice, in lines of 100 columns, whate
   std::ostringstream out;
   compare::write_ranking_text(out, ranking);
   std::istringstream in(out.str());
-  for (std::string line; std::getline(in, line);)
-    CHECK(compare::n_characters(line) <= compare::screen_width);
+  for (std::string line; std::getline(in, line);) CHECK(compare::n_characters(line) <= compare::screen_width);
   CHECK_THAT(unwrapped(out.str()), Catch::EndsWith(" " + compare::advice_of(ranking) + " "));
 }
 
@@ -319,7 +318,8 @@ TEST_CASE("the verdict holds the springs' error against their mesh's as far as b
   CHECK_THAT(springs, Contains("The springs are up to 20.00 +- 1 % (u) from the truth") &&
                           Contains("themselves err by up to 3.00 +- 1 % on this mesh") &&
                           Contains("The springs err more than their mesh does."));
-  CHECK_THAT(compare::verdict_of(solved(80, 97)), Contains("They err less than the finite elements on this mesh do"));
+  CHECK_THAT(compare::verdict_of(solved(80, 97)),
+             Contains("They err less than the finite elements on this mesh do"));
   CHECK_THAT(compare::verdict_of(solved(97, 98.5)),
              Contains("do not tell the springs' error from their mesh's"));
   compare::Comparison unknown = solved(97, 80);

@@ -90,7 +90,7 @@ TEST_CASE("half a body on a plane of symmetry gets the springs of the whole") {
   msm::FitRequest request{std::vector<mechanics::ElasticModuli>(half.cells.size(), soft), 0.8};
   const Points moved = bodies::disturbed(half.nodes.to_vector(), 0.1);
   const int n_nodes = static_cast<int>(moved.size()), across = 2; // the plane z = 0
-  std::vector<int> image;                                         // of the half's nodes
+  std::vector<int> image;                                         // one per node of the half
   cases::Mesh whole = half;
   for (int n = 0; n < n_nodes; ++n) {
     const bool is_on_plane = half.nodes[index(n)][across] < 1e-9;
@@ -188,7 +188,7 @@ TEST_CASE("volume terms at nodes have the volume, and derivatives that differenc
   cell.is_logarithmic = GENERATE(false, true);
   const msm::Lattice lattice = msm::make_lattice(mesh, body_of(std::vector(mesh.cells.size(), cell)));
   REQUIRE(lattice.volume_patches.size() == mesh.nodes.size());
-  CHECK(lattice.volume_tetrahedra.empty());
+  CHECK(lattice.volume_cells.empty());
   double sum = 0, volume = 0;
   for (const msm::VolumePatch& patch : lattice.volume_patches) {
     CHECK(patch.stiffness == Approx(cell.volume).epsilon(1e-14)); // a mean of equal ones
