@@ -14,7 +14,7 @@ function kinds_of(springs) {
     const kind = is_tetrahedron ? 0 : axes.length - 1;
     const key = [kind, general(spring.stiffness_N_per_m), spring.exponent].join(" ");
     if (!found.has(key)) found.set(key, { kind, axes: new Set(), n: 0, stiffness: spring.stiffness_N_per_m, exponent: spring.exponent });
-    found.get(key).axes.add(axes.map((axis) => "xyz"[axis]).join(""));
+    if (!is_tetrahedron) found.get(key).axes.add(axes.map((axis) => "xyz"[axis]).join(""));
     ++found.get(key).n;
   }
   return [...found.values()].sort((a, b) => a.kind - b.kind);

@@ -127,7 +127,11 @@ std::vector<msm::CellTerms> fitted(const cases::Scene& scene, const std::vector<
         fmt::format("{} nodes are held in fewer than three directions by their springs: "
                     "their cells are too flat, and a finer or better mesh is needed",
                     fit.n_loose_nodes));
-  if (options.design != D::midline || scene.mesh.shape == cases::CellShape::tetrahedron) return fit.cells;
+  if (options.design != D::midline) return fit.cells;
+  if (scene.mesh.shape == cases::CellShape::tetrahedron) {
+    result.warnings.push_back("tetrahedra have no opposite faces: the springs of midline are matched's here");
+    return fit.cells;
+  }
   const std::vector<int> across = options.beta ? std::vector<int>()
                                                : cases::cells_across(scene.mesh, scene.definition.symmetry,
                                                                      msm::DesignRequest::many_cells);

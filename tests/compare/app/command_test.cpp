@@ -82,7 +82,7 @@ TEST_CASE(
          "name = \"volume\"\nkind = \"volume\"\n";
   check_refused("run " + file, "--only msm");
   check_refused("design --case " + file, "fitted to the whole mesh");
-  check_refused("eigen " + file, "mesh of tetrahedra");
+  check_refused("eigen --set material.density=1000 " + file, "mesh of tetrahedra");
   const std::string text = printed_by("run --only msm " + file);
   CHECK_THAT(text, !Catch::Contains("nan") && !Catch::Contains("both models"));
   const auto document = document_of("run --json --only msm " + file);
