@@ -67,13 +67,18 @@ ElementsInState elements_of(const cases::Scene& scene, const std::vector<Formula
     if (cells.size() == 0) cells = {cell, cell + 1};
     cells = {std::min(cells.begin, cell), std::max(cells.end, cell + 1)};
   }
-  const auto for_each = [&equations, &refined_cells, &state, refine](const auto& action) {
+  const auto for_each = [&equations, &refined_cells, &state, refine,
+                         shape = scene.mesh.shape](const auto& action) {
     equations.for_each_cell(state, [&](int cell, const CellGeometry& geometry, const double* displacement,
                                        const double* internal) {
-      action({place_of(index(refined_cells[index(cell)]), refine), geometry, displacement, internal});
+      action({place_of(shape, index(refined_cells[index(cell)]), refine), geometry, displacement, internal});
     });
   };
-  return {scene, formulations, discretisation.element, discretisation.nodes.in_unit_cube(), cells, for_each};
+  const auto products = [&geometry = discretisation.geometry](const CellGeometry& cell) {
+    return geometry.products(cell);
+  };
+  return {scene, formulations, discretisation.element, discretisation.nodes.in_reference_cell, products,
+          cells, for_each};
 }
 
 } // namespace springproof::fem_reference

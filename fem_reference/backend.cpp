@@ -1,5 +1,6 @@
 #include "fem_reference/backend.hpp"
 
+#include "cases/case/elements.hpp"
 #include "cases/case/error.hpp"
 #include "fem_reference/grid/on_grid.hpp"
 
@@ -25,7 +26,7 @@ Backend choose_backend(const cases::Scene& scene, double n_nodes) {
 }
 
 int n_halvings(const cases::Fem& fem) {
-  return fem.refine + (fem.element == cases::Element::q2 || fem.element == cases::Element::q2_p1 ? 1 : 0);
+  return fem.refine + cases::facts_of(fem.element).degree - 1;
 }
 
 double n_element_nodes(const cases::Fem& fem, double n_nodes) {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/affine_constraints.h>
@@ -49,15 +48,15 @@ void add_traction(const cases::Scene& scene, const cases::Scene::AppliedLoad& ap
   if (!traction_at) return;
   std::set<std::set<int>> faces; // by their vertices
   for (const auto& face : applied.selection.faces) faces.emplace(face.begin(), face.end());
-  const dealii::QGauss<2> quadrature(space.node_element.degree + 2);
-  dealii::FEFaceValues<3> values(space.mapping, space.node_element, quadrature,
+  dealii::FEFaceValues<3> values(*space.mapping, *space.node_element, space.quadrature_of_faces,
                                  dealii::update_values | dealii::update_quadrature_points |
                                      dealii::update_JxW_values);
   const int* node = nodes.of_cell.data();
   for (const auto& cell : space.own_cells()) {
     for (const unsigned face : cell->face_indices()) {
       std::set<int> vertices;
-      for (unsigned v = 0; v < 4; ++v) vertices.insert(static_cast<int>(cell->face(face)->vertex_index(v)));
+      for (const unsigned v : cell->face(face)->vertex_indices())
+        vertices.insert(static_cast<int>(cell->face(face)->vertex_index(v)));
       if (faces.count(vertices) == 0 || !integrates(cell, face)) continue;
       values.reinit(static_cast<const dealii::Triangulation<3>::active_cell_iterator&>(cell), face);
       for (const unsigned q : values.quadrature_point_indices()) {
@@ -71,17 +70,17 @@ void add_traction(const cases::Scene& scene, const cases::Scene::AppliedLoad& ap
   }
 }
 
-/// The weight of the cells, and of what [[mass]] adds to nodes.
+/// The weight of the cells, by the masses of their nodes, so that a free body falls as one, and of what
+/// [[mass]] adds to nodes.
 void add_gravity(const cases::Scene& scene, const Nodes& nodes, const Geometry& geometry, Vec load) {
   const Vector3d gravity = cases::gravity(scene);
   if (gravity.isZero(0)) return;
   for (int cell = 0; cell < nodes.n_cells; ++cell) {
     const double density = cases::dynamics_of(scene, index(nodes.mesh_cell[index(cell)])).density;
-    for (int q = 0; q < geometry.n_points; ++q)
-      for (int a = 0; a < nodes.per_cell; ++a)
-        add(load, nodes.of_cell[index(cell * nodes.per_cell + a)],
-            density * geometry.of(cell).weights[q] * geometry.shape_values[index(q * nodes.per_cell + a)] *
-                gravity);
+    const Eigen::VectorXd share =
+        geometry.products(geometry.of(cell), scene.definition.fem.mass).rowwise().sum();
+    for (int a = 0; a < nodes.per_cell; ++a)
+      add(load, nodes.of_cell[index(cell * nodes.per_cell + a)], density * share[a] * gravity);
   }
   const cases::NodeMasses added = cases::added_masses(scene);
   for (int node = 0; node < nodes.n_owned; ++node)
@@ -111,7 +110,7 @@ void check_resultant(const cases::Scene& scene, const std::vector<double>& load,
 /// Point forces, tractions, torques and gravity at full load, N per owned degree of freedom.
 std::vector<double> assemble_loads(const cases::Scene& scene, const Space& space, const Nodes& nodes,
                                    const Geometry& geometry) {
-  const Vector load = nodes.make_vector(space.mesh.get_communicator());
+  const Vector load = nodes.make_vector(space.mesh->get_communicator());
   add_point_forces(scene, nodes, load.get());
   for (const auto& applied : scene.loads) add_traction(scene, applied, space, nodes, load.get());
   add_gravity(scene, nodes, geometry, load.get());
@@ -119,7 +118,7 @@ std::vector<double> assemble_loads(const cases::Scene& scene, const Space& space
   check(VecAssemblyEnd(load.get()));
   const ReadEntries values(load.get());
   std::vector<double> owned(values.data(), values.data() + 3 * nodes.n_owned);
-  check_resultant(scene, owned, space.mesh.get_communicator());
+  check_resultant(scene, owned, space.mesh->get_communicator());
   return owned;
 }
 
@@ -133,7 +132,7 @@ std::set<Part> parts_of(const cases::Selection& selection) {
   for (const auto& edge : selection.edges) parts.emplace(edge.begin(), edge.end());
   for (const auto& face : selection.faces) {
     parts.emplace(face.begin(), face.end());
-    for (std::size_t v = 0; v < 4; ++v) parts.insert(Part{face[v], face[(v + 1) % 4]});
+    for (const auto& [from, to] : cases::sides_of(face)) parts.insert(Part{from, to});
   }
   return parts;
 }
@@ -192,7 +191,7 @@ void Constraints::prescribe_moved(const Factor& factor, std::vector<double>& dis
 }
 
 Discretisation::Discretisation(const cases::Scene& scene, const ElementType& type, MPI_Comm all_ranks)
-    : space_(std::make_unique<Space>(scene, type, all_ranks)), communicator(space_->mesh.get_communicator()),
+    : space_(std::make_unique<Space>(scene, type, all_ranks)), communicator(space_->mesh->get_communicator()),
       element(type), nodes(*space_, scene), geometry(*space_, nodes, element),
       constraints(scene, nodes, communicator), load(assemble_loads(scene, *space_, nodes, geometry)) {
   if (!scene.material_of_cell.empty())

@@ -1,10 +1,14 @@
 #include "fem_reference/element.hpp"
 
+#include "cases/case/elements.hpp"
+#include "cases/case/names.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <fmt/format.h>
 
 /// BLAS's product C = A B, each factor as it is ("N") or transposed ("T"), stored by columns.
 extern "C" void dgemm_(const char* transpose_a, const char* transpose_b, const int* rows, const int* columns,
@@ -16,12 +20,19 @@ namespace springproof::fem_reference {
 
 namespace {
 
-constexpr std::array<ElementType, 6> table{{{cases::Element::q1, 1, Pressure::pointwise, 0},
-                                            {cases::Element::q1_wilson, 1, Pressure::pointwise, 0, 3},
-                                            {cases::Element::q1_bbar, 1, Pressure::modes, 1},
-                                            {cases::Element::q1_p0, 1, Pressure::modes, 1},
-                                            {cases::Element::q2, 2, Pressure::pointwise, 0},
-                                            {cases::Element::q2_p1, 2, Pressure::modes, 4}}};
+using cases::Element;
+
+constexpr auto hexahedron = cases::CellShape::hexahedron, tetrahedron = cases::CellShape::tetrahedron;
+
+constexpr std::array<ElementType, 9> table{{{Element::q1, hexahedron, 1, Pressure::pointwise, 0},
+                                            {Element::q1_wilson, hexahedron, 1, Pressure::pointwise, 0, 3},
+                                            {Element::q1_bbar, hexahedron, 1, Pressure::modes, 1},
+                                            {Element::q1_p0, hexahedron, 1, Pressure::modes, 1},
+                                            {Element::q2, hexahedron, 2, Pressure::pointwise, 0},
+                                            {Element::q2_p1, hexahedron, 2, Pressure::modes, 4},
+                                            {Element::p1, tetrahedron, 1, Pressure::pointwise, 0},
+                                            {Element::p2, tetrahedron, 2, Pressure::pointwise, 0},
+                                            {Element::p2_p0, tetrahedron, 2, Pressure::modes, 1}}};
 
 } // namespace
 
@@ -31,16 +42,32 @@ ElementType element_type(const cases::Fem& fem, const LawTraits& law) {
   assert(row != table.end());
   if (law.split == Split::none && row->pressure != Pressure::pointwise)
     throw cases::InputError(
-        fem.where, "this formulation's stress has no separate pressure, which q1_bbar, q1_p0 and q2_p1 "
-                   "need; allowed here: q1, q1_wilson, q2");
+        fem.where,
+        fmt::format("this formulation's stress has no separate pressure, which {} needs; allowed "
+                    "here: {}",
+                    cases::name_of(row->name),
+                    cases::alternatives(cases::elements_of(fem.formulation, row->shape == tetrahedron))));
   return *row;
 }
 
+int ElementType::n_nodes() const {
+  if (shape == tetrahedron) return degree == 1 ? 4 : 10;
+  return (degree + 1) * (degree + 1) * (degree + 1);
+}
+
+int ElementType::n_points() const {
+  if (shape == tetrahedron) {
+    if (degree == 1) return 1;
+    return pressure == Pressure::modes ? 8 : 4;
+  }
+  return n_nodes();
+}
+
 CellKernel::CellKernel(const ElementType& element) : element_(element) {
-  const int n_nodes = (element.degree + 1) * (element.degree + 1) * (element.degree + 1);
+  const int n_nodes = element.n_nodes();
   const int n_dofs = 3 * n_nodes, n_functions = n_nodes + element.n_bubbles;
   const int n_modes = element.n_pressure_modes, n_internal = element.n_internal();
-  const auto n_points = static_cast<std::size_t>(n_nodes);
+  const auto n_points = static_cast<std::size_t>(element.n_points());
   dilatation_.resize(n_points);
   cofactor_.resize(n_points);
   target_.resize(n_points);

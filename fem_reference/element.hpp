@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/case/case.hpp"
+#include "cases/mesh/cell_shape.hpp"
 #include "fem_reference/laws/point.hpp"
 
 #include <vector>
@@ -21,7 +22,8 @@ enum class Pressure {
 /// One row of the table of elements.
 struct ElementType {
   cases::Element name;
-  int degree; ///< the displacement's, per direction
+  cases::CellShape shape;
+  int degree; ///< the displacement's; of a hexahedron, per direction
   Pressure pressure;
   int n_pressure_modes; ///< 1: constant; 4: linear in the rest coordinates, discontinuous
   /// Displacements of its own that a cell adds, each with three components: 3 are Wilson's 1 - xi_a², a = 1,
@@ -29,6 +31,11 @@ struct ElementType {
   /// 1976), on any hexahedron.
   int n_bubbles = 0;
 
+  int n_nodes() const;
+  /// Points at which a cell's stress is evaluated. In tetrahedra they are as few as make its forces exact in
+  /// small strains, 1 or 4; but 8 with a constant pressure, since the shears of 4 leave a cell three motions
+  /// without force.
+  int n_points() const;
   /// Unknowns of a cell that are condensed in the linear solve: pressures, or components of bubbles.
   int n_internal() const { return n_pressure_modes + 3 * n_bubbles; }
 };

@@ -1,25 +1,24 @@
 #include "fem_reference/element_fields.hpp"
 
+#include "cases/mesh/cell_children.hpp"
 #include "cases/scene/loads.hpp"
-#include "fem_reference/cuboid.hpp"
-#include "mechanics/hexahedron.hpp"
 #include "mechanics/larger.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace springproof::fem_reference {
 
 using cases::index;
 using Eigen::Vector3d;
 
-ElementPlace place_of(std::size_t refined_cell, int n_refinements) {
-  ElementPlace place{refined_cell >> (3 * n_refinements), Vector3d::Zero(), 1};
-  for (int level = n_refinements - 1; level >= 0; --level) { // the first refinement's octant comes first
-    const std::size_t octant = refined_cell >> (3 * level) & 7;
-    place.edge /= 2;
-    for (int a = 0; a < 3; ++a)
-      if (octant >> a & 1) place.lower[a] += place.edge;
+ElementPlace place_of(cases::CellShape shape, std::size_t refined_cell, int n_refinements) {
+  ElementPlace place{refined_cell >> (3 * n_refinements), Vector3d::Zero(), Eigen::Matrix3d::Identity()};
+  for (int level = n_refinements - 1; level >= 0; --level) { // the first refinement's child comes first
+    const cases::CellCorners child = cases::child_corners(shape, refined_cell >> (3 * level) & 7);
+    place.origin += place.axes * child[0];
+    place.axes *= cases::jacobian(child, Vector3d::Zero());
   }
   return place;
 }
@@ -27,20 +26,21 @@ ElementPlace place_of(std::size_t refined_cell, int n_refinements) {
 namespace {
 
 /// Adds an element's part of the fields.
-/// @param nodes  an element's, in its unit cube     @param force  CellResult::plain_force, N
+/// @param nodes  an element's, in its reference cell     @param force  CellResult::plain_force, N
 void add(mechanics::FieldSums& sums, const cases::Scene& scene, const std::vector<Vector3d>& nodes,
          const ElementState& element, bool is_linear, const Eigen::VectorXd& force, double energy) {
   const auto& [place, geometry, displacement, internal] = element;
   const cases::CellNodes vertices = scene.mesh.cells[place.cell];
-  const std::array<Vector3d, 8> corners = cases::cell_vertices(scene.mesh, place.cell);
+  const cases::CellCorners corners = cases::cell_corners(scene.mesh, place.cell);
   const Vector3d first(displacement);
   mechanics::CellSums& sum = sums.cell(place.cell);
   for (int a = 0; a < geometry.n_nodes; ++a) {
-    const std::array<double, 8> shape = mechanics::shape_values(place.lower + place.edge * nodes[index(a)]);
+    const cases::ShapeValues shape =
+        cases::shape_values(scene.mesh.shape, place.origin + place.axes * nodes[index(a)]);
     const Vector3d f(force[a], force[geometry.n_nodes + a], force[2 * geometry.n_nodes + a]);
     // the virial of linear kinematics is that of the body at rest
     Vector3d at = is_linear ? Vector3d(0, 0, 0) : Vector3d(Vector3d(displacement + 3 * a) - first);
-    for (std::size_t v = 0; v < 8; ++v) {
+    for (std::size_t v = 0; v < corners.size(); ++v) {
       at += shape[v] * (corners[v] - corners[0]); // forces add up to 0: any origin serves
       sums.force(index(vertices[v])) += shape[v] * f;
     }
@@ -93,24 +93,13 @@ cases::Fields fields_of(const ElementsInState& elements, const cases::Sharing* s
 }
 
 cases::FieldNorms displacement_norms(const ElementsInState& elements, const cases::Sharing* sharing) {
-  const int degree = elements.type.degree, n = degree + 1;
-  const Cuboid cuboid(degree, 0, Vector3d::Ones());
-  std::vector<std::size_t> number; // each node's in the cuboid
-  for (const Vector3d& node : elements.nodes) {
-    const Eigen::Vector3i at = (degree * node).array().round().cast<int>();
-    number.push_back(index(at.x() + n * (at.y() + n * at.z())));
-  }
   double integral = 0, volume = 0, largest = 0;
   elements.for_each([&](const ElementState& element) {
-    const auto at_node = [&](std::size_t a) { return Vector3d(element.displacement + 3 * a); };
-    for (std::size_t q = 0; q < index(element.geometry.n_points); ++q) {
-      Vector3d value = Vector3d::Zero();
-      for (std::size_t a = 0; a < number.size(); ++a)
-        value += cuboid.values()[q * number.size() + number[a]] * at_node(a);
-      integral += element.geometry.weights[q] * value.squaredNorm();
-      volume += element.geometry.weights[q];
-    }
-    for (std::size_t a = 0; a < number.size(); ++a) largest = mechanics::larger(largest, at_node(a).norm());
+    const Eigen::Map<const Eigen::Matrix3Xd> at_nodes(element.displacement, 3, element.geometry.n_nodes);
+    integral += (at_nodes * elements.products(element.geometry)).cwiseProduct(at_nodes).sum();
+    volume +=
+        std::accumulate(element.geometry.weights, element.geometry.weights + element.geometry.n_points, 0.);
+    for (const auto& at_node : at_nodes.colwise()) largest = mechanics::larger(largest, at_node.norm());
   });
   if (!sharing) return {std::sqrt(integral / volume), largest};
   return {std::sqrt(sharing->sum(integral) / sharing->sum(volume)), sharing->largest(largest)};

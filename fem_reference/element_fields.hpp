@@ -5,16 +5,17 @@
 
 namespace springproof::fem_reference {
 
-/// Where an element lies in its cell of the body's mesh: a cube of the cell's unit cube.
+/// Where an element lies in its cell of the body's mesh: its point x, in its reference cell, at
+/// origin + axes x in the cell's.
 struct ElementPlace {
   std::size_t cell;
-  Eigen::Vector3d lower; ///< corner
-  double edge;           ///< 1/2 to the number of refinements
+  Eigen::Vector3d origin;
+  Eigen::Matrix3d axes;
 };
 
 /// Place of a cell of the body's mesh refined n times: cases::refine() makes cells 8c .. 8c+7 of cell c, the
-/// number's last three bits being the octant.
-ElementPlace place_of(std::size_t refined_cell, int n_refinements);
+/// number's last three bits being the child's.
+ElementPlace place_of(cases::CellShape shape, std::size_t refined_cell, int n_refinements);
 
 /// An element in a state. Arrays are laid out as in CellKernel::evaluate().
 struct ElementState {
@@ -29,14 +30,15 @@ struct ElementsInState {
   const cases::Scene& scene;             ///< on the body's own mesh
   std::vector<Formulation> formulations; ///< one for each of its materials
   ElementType type;
-  std::vector<Eigen::Vector3d> nodes; ///< an element's, in its unit cube
+  std::vector<Eigen::Vector3d> nodes;                           ///< an element's, in its reference cell
+  std::function<Eigen::MatrixXd(const CellGeometry&)> products; ///< integrals of N_a N_b, mm³
   cases::Range cells;                 ///< contains the body's cells of all elements here
   /// Calls action(element). Of the ranks that share a state, one has each element.
   std::function<void(const std::function<void(const ElementState&)>& action)> for_each;
 };
 
 /// Fields of an equilibrium under the scene's loads times a factor, on the body's own mesh: the forces of the
-/// elements' nodes go to the vertices of the body's cell by its trilinear shape functions, so that the sum
+/// elements' nodes go to the vertices of the body's cell by the cell's shape functions, so that the sum
 /// over a support is the support's force on every mesh, and a node's has a limit under refinement.
 /// Collective.  @param sharing  the solution's
 cases::Fields fields_of(const ElementsInState& elements, const cases::Sharing* sharing, double load_factor);

@@ -1,12 +1,13 @@
 #include "fem_reference/geometry.hpp"
 
 #include "fem_reference/space.hpp"
+#include "mechanics/shape_products.hpp"
 
 #include <cmath>
-#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
+#include <numeric>
 
 namespace springproof::fem_reference {
 
@@ -22,12 +23,13 @@ Nodes::Nodes(const Space& space, const cases::Scene& scene) {
     for (const auto dof : dofs)
       if (dof % 3 == 0) global.push_back(static_cast<PetscInt>(dof / 3));
   n_owned = static_cast<int>(owned.n_elements() / 3);
-  per_cell = static_cast<int>(space.node_element.n_dofs_per_cell());
-  for (const auto& at : space.node_element.get_unit_support_points()) {
+  per_cell = static_cast<int>(space.node_element->n_dofs_per_cell());
+  for (const auto& at : space.node_element->get_unit_support_points()) {
+    in_reference_cell.emplace_back(at[0], at[1], at[2]);
     between.emplace_back();
-    for (unsigned v = 0; v < 8; ++v) // the weights are 1, 1/2, 1/4 or 1/8, or zero
-      if (dealii::GeometryInfo<3>::d_linear_shape_function(at, v) > 0.1)
-        between.back().push_back(static_cast<int>(v));
+    const cases::ShapeValues weights = cases::shape_values(space.shape, in_reference_cell.back());
+    for (std::size_t v = 0; v < weights.size(); ++v) // they are 1, 1/2, 1/4 or 1/8, or zero
+      if (weights[v] > 0.1) between.back().push_back(static_cast<int>(v));
   }
 
   point.resize(global.size());
@@ -37,7 +39,7 @@ Nodes::Nodes(const Space& space, const cases::Scene& scene) {
     cell->get_dof_indices(dofs);
     mesh_cell.push_back(cell->index());
     const auto& cell_vertices = scene.mesh.cells[index(mesh_cell.back())];
-    for (unsigned a = 0; a < space.node_element.n_dofs_per_cell(); ++a) {
+    for (unsigned a = 0; a < space.node_element->n_dofs_per_cell(); ++a) {
       const auto dof = dofs[space.element.component_to_system_index(0, a)];
       const auto node = owned.is_element(dof)
                             ? owned.index_within_set(dof) / 3
@@ -53,16 +55,6 @@ Nodes::Nodes(const Space& space, const cases::Scene& scene) {
   n_cells = static_cast<int>(mesh_cell.size());
 }
 
-std::vector<Vector3d> Nodes::in_unit_cube() const {
-  std::vector<Vector3d> nodes;
-  for (const std::vector<int>& vertices : between) {
-    Vector3d sum = Vector3d::Zero();
-    for (const int v : vertices) sum += Vector3d(v & 1, v >> 1 & 1, v >> 2);
-    nodes.push_back(sum / static_cast<double>(vertices.size()));
-  }
-  return nodes;
-}
-
 Vector Nodes::make_vector(MPI_Comm communicator) const {
   const auto n_ghosts = static_cast<PetscInt>(global.size()) - n_owned;
   Vector vector(get<Vec>(VecCreateGhostBlock, communicator, 3, 3 * n_owned, PETSC_DECIDE, n_ghosts,
@@ -71,16 +63,37 @@ Vector Nodes::make_vector(MPI_Comm communicator) const {
   return vector;
 }
 
+namespace {
+
+std::vector<double> shape_values_at(const Space& space, const dealii::Quadrature<3>& points) {
+  std::vector<double> values;
+  for (const auto& at : points.get_points())
+    for (unsigned a = 0; a < space.node_element->n_dofs_per_cell(); ++a)
+      values.push_back(space.node_element->shape_value(a, at));
+  return values;
+}
+
+/// Integrals of N_a N_b over the reference tetrahedron and its volume, by a rule of degree 5.
+Eigen::MatrixXd mean_products_of_tetrahedron(const Space& space) {
+  const dealii::QWitherdenVincentSimplex<3> rule(3);
+  std::vector<double> weights = rule.get_weights();
+  const double volume = cases::reference_cell(cases::CellShape::tetrahedron).volume;
+  return mechanics::shape_products(static_cast<int>(space.node_element->n_dofs_per_cell()),
+                                   static_cast<int>(rule.size()), shape_values_at(space, rule).data(),
+                                   weights.data(), 1 / volume);
+}
+
+} // namespace
+
 Geometry::Geometry(const Space& space, const Nodes& nodes, const ElementType& element)
     : nodes_(nodes), n_modes_(element.n_pressure_modes), n_bubbles_(element.n_bubbles) {
-  const dealii::QGauss<3> quadrature(static_cast<unsigned>(element.degree) + 1);
-  dealii::FEValues<3> values(space.mapping, space.node_element, quadrature,
+  const dealii::Quadrature<3>& quadrature = space.quadrature;
+  dealii::FEValues<3> values(*space.mapping, *space.node_element, quadrature,
                              dealii::update_gradients | dealii::update_JxW_values);
   n_points = static_cast<int>(quadrature.size());
-  for (const auto& at : quadrature.get_points())
-    for (unsigned a = 0; a < space.node_element.n_dofs_per_cell(); ++a)
-      shape_values.push_back(space.node_element.shape_value(a, at));
-  dealii::FEValues<3> centre(space.mapping, space.node_element, dealii::QMidpoint<3>(),
+  shape_values = shape_values_at(space, quadrature);
+  if (space.shape == cases::CellShape::tetrahedron) mean_products_ = mean_products_of_tetrahedron(space);
+  dealii::FEValues<3> centre(*space.mapping, *space.node_element, dealii::QMidpoint<3>(),
                              dealii::update_inverse_jacobians | dealii::update_JxW_values);
   gradients_.reserve(3 * index(nodes.n_cells) * index(n_points) * index(nodes.per_cell + n_bubbles_));
   int n_cells = 0;
@@ -130,6 +143,20 @@ CellGeometry Geometry::of(int cell) const {
           gradients_.data() + first * 3 * index(n_functions),
           weights_.data() + first,
           modes_.data() + first * index(n_modes_)};
+}
+
+Eigen::MatrixXd Geometry::products(const CellGeometry& cell) const {
+  if (mean_products_.size() == 0)
+    return mechanics::shape_products(cell.n_nodes, n_points, shape_values.data(), cell.weights, 1);
+  return std::accumulate(cell.weights, cell.weights + n_points, 0.) * mean_products_;
+}
+
+Eigen::MatrixXd Geometry::products(const CellGeometry& cell, cases::ElementMass kind) const {
+  const Eigen::MatrixXd all = products(cell);
+  if (kind == cases::ElementMass::consistent) return all;
+  Eigen::VectorXd lumped = all.rowwise().sum();
+  if (mean_products_.size() > 0) lumped = all.sum() / all.trace() * all.diagonal();
+  return lumped.asDiagonal();
 }
 
 Vector3d Geometry::point(int cell, int q) const {

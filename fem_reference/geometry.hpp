@@ -32,8 +32,8 @@ struct Nodes {
   std::vector<Eigen::Vector3d> point; ///< rest position of each local node, mm
   std::vector<std::vector<int>> between; ///< for each node of a cell: the cell's vertices whose mean it is
 
-  /// The nodes of a cell in its unit cube.
-  std::vector<Eigen::Vector3d> in_unit_cube() const;
+  /// The nodes of a cell in its reference cell.
+  std::vector<Eigen::Vector3d> in_reference_cell;
 
   /// A vector of displacements or forces with ghosts, zero.
   Vector make_vector(MPI_Comm communicator) const;
@@ -48,6 +48,12 @@ class Geometry {
   std::vector<double> shape_values; ///< N_a at point q: [q*n_nodes + a]
 
   CellGeometry of(int cell) const;
+  /// Integrals of N_a N_b over a cell at rest, mm³; exact for straight tetrahedra, whose points are too few.
+  Eigen::MatrixXd products(const CellGeometry& cell) const;
+  /// The same, or lumped. The sums of rows of a hexahedron are then on the diagonal; those of a tetrahedron
+  /// of degree 2 are negative at its vertices, and it has its diagonal instead, scaled to its volume (Hinton,
+  /// Rock and Zienkiewicz 1976), which is the same at degree 1.
+  Eigen::MatrixXd products(const CellGeometry& cell, cases::ElementMass kind) const;
   /// Rest position of a quadrature point, mm.
   Eigen::Vector3d point(int cell, int q) const;
 
@@ -56,6 +62,7 @@ class Geometry {
 
   const Nodes& nodes_;
   int n_modes_, n_bubbles_;
+  Eigen::MatrixXd mean_products_; ///< a tetrahedron's, over its volume
   std::vector<double> gradients_, weights_, modes_;
 };
 

@@ -1,7 +1,6 @@
 #include "fem_reference/inertia.hpp"
 
 #include "cases/scene/loads.hpp"
-#include "mechanics/shape_products.hpp"
 
 namespace springproof::fem_reference {
 
@@ -9,16 +8,6 @@ namespace {
 
 using cases::index;
 using Triplets = std::vector<Eigen::Triplet<double>>;
-
-/// Integral of density N_a N_b over a cell; lumped, its sums of rows on the diagonal, which are positive for
-/// trilinear and triquadratic elements.
-Eigen::MatrixXd node_masses(const Discretisation& d, int cell, double density, cases::ElementMass kind) {
-  Eigen::MatrixXd mass =
-      mechanics::shape_products(d.nodes.per_cell, d.geometry.n_points, d.geometry.shape_values.data(),
-                                d.geometry.of(cell).weights, density);
-  if (kind == cases::ElementMass::lumped) mass = Eigen::MatrixXd(mass.rowwise().sum().asDiagonal());
-  return mass;
-}
 
 /// Returns a function of a cell, its tangent at rest; degree of freedom i*n_nodes + a is component i of node
 /// a.
@@ -64,7 +53,8 @@ Inertia make_inertia(const cases::Scene& scene, const Discretisation& d,
     const auto add = [&](Triplets& to, int a, int b, int component, double value) {
       if (value != 0) to.emplace_back(3 * node[a] + component, 3 * node[b] + component, value);
     };
-    const Eigen::MatrixXd of_nodes = node_masses(d, cell, dynamics.density, scene.definition.fem.mass);
+    const Eigen::MatrixXd of_nodes =
+        dynamics.density * d.geometry.products(d.geometry.of(cell), scene.definition.fem.mass);
     for (int a = 0; a < n; ++a)
       for (int b = 0; b < n; ++b)
         for (int i = 0; i < 3; ++i) {

@@ -3,12 +3,13 @@
 #include "cases/scene/scene.hpp"
 #include "fem_reference/element.hpp"
 
-#include <deal.II/distributed/tria.h>
+#include <deal.II/base/quadrature.h>
+#include <deal.II/distributed/tria_base.h>
 #include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/fe/mapping.h>
 #include <deal.II/grid/filtered_iterator.h>
+#include <memory>
 
 namespace springproof::fem_reference {
 
@@ -17,29 +18,23 @@ namespace springproof::fem_reference {
 struct Space {
   /// The scene's cells become coarse cells and are never refined: vertex numbers stay the scene's node
   /// numbers.
-  Space(const cases::Scene& scene, const ElementType& type, MPI_Comm communicator)
-      : mesh(communicator), node_element(static_cast<unsigned>(type.degree)), element(node_element, 3),
-        dofs(mesh) {
-    std::vector<dealii::Point<3>> vertices;
-    for (const Eigen::Vector3d& node : scene.mesh.nodes) vertices.emplace_back(node.x(), node.y(), node.z());
-    std::vector<dealii::CellData<3>> cells(scene.mesh.cells.size());
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const cases::CellNodes nodes = scene.mesh.cells[c];
-      cells[c].vertices.assign(nodes.begin(), nodes.end());
-    }
-    mesh.create_triangulation(vertices, cells, dealii::SubCellData());
-    dofs.distribute_dofs(element);
-  }
+  Space(const cases::Scene& scene, const ElementType& type, MPI_Comm communicator);
 
   auto own_cells() const {
     return dofs.active_cell_iterators() | dealii::IteratorFilters::LocallyOwnedCell();
   }
 
-  dealii::MappingQ1<3> mapping;
-  dealii::parallel::distributed::Triangulation<3> mesh;
-  dealii::FE_Q<3> node_element;
+  cases::CellShape shape;
+  std::unique_ptr<dealii::parallel::TriangulationBase<3>> mesh;
+  std::unique_ptr<dealii::Mapping<3>> mapping;
+  std::unique_ptr<dealii::FiniteElement<3>> node_element;
   dealii::FESystem<3> element;
   dealii::DoFHandler<3> dofs;
+
+  /// Points of ElementType::n_points(), for the stress.
+  dealii::Quadrature<3> quadrature;
+  /// Points of a face, for tractions that vary.
+  dealii::Quadrature<2> quadrature_of_faces;
 };
 
 } // namespace springproof::fem_reference

@@ -14,7 +14,7 @@
 namespace springproof::cases {
 
 SPRINGPROOF_ENUMERATION(Formulation, small_strain, saint_venant_kirchhoff, log_strain, hyperelastic)
-SPRINGPROOF_ENUMERATION(Element, q1, q1_bbar, q1_p0, q1_wilson, q2, q2_p1)
+SPRINGPROOF_ENUMERATION(Element, q1, q1_bbar, q1_p0, q1_wilson, q2, q2_p1, p1, p2, p2_p0)
 
 /// Properties that a converged side must not have, unless its case accepts them.
 SPRINGPROOF_ENUMERATION(Doubt,
@@ -25,6 +25,7 @@ SPRINGPROOF_ENUMERATION(Doubt,
 struct Fem {
   Formulation formulation = Formulation::log_strain;
   Element element = Element::q1_bbar;
+  bool has_auto_element = false;     ///< named by no case file: the default of the mesh's shape
   int refine = 0;                    ///< uniform refinements of the body's mesh, FEM side only
   bool has_auto_formulation = false; ///< small_strain where the strains allow it, else the formulation above
   bool has_auto_accuracy = false;    ///< further meshes until the limit is known well enough
@@ -32,8 +33,8 @@ struct Fem {
   ElementMass mass = ElementMass::consistent;
   Where where;
 };
-SPRINGPROOF_FIELDS(Fem, formulation, element, refine, has_auto_formulation, has_auto_accuracy, accepted, mass,
-                   where)
+SPRINGPROOF_FIELDS(Fem, formulation, element, has_auto_element, refine, has_auto_formulation,
+                   has_auto_accuracy, accepted, mass, where)
 
 /// Homogeneous deformations that the multi-load design is fitted to.
 SPRINGPROOF_ENUMERATION(LoadPath,

@@ -1,3 +1,4 @@
+#include "cases/case/elements.hpp"
 #include "cases/case/readers.hpp"
 
 #include <algorithm>
@@ -9,23 +10,6 @@ namespace springproof::cases {
 #pragma GCC diagnostic error "-Wswitch" // an enumerator that is forgotten here must not compile
 
 namespace {
-
-/// The elements that a formulation has, its default first. The pressure of a mixed or averaged
-/// element acts on the volume ratio J; the law S = lambda tr(E) I + 2 mu E has no such part, so there is
-/// nothing to average in it.
-std::vector<Element> elements_of(Formulation formulation) {
-  using E = Element;
-  switch (formulation) {
-  case Formulation::saint_venant_kirchhoff:
-    return {E::q1, E::q1_wilson, E::q2};
-  case Formulation::hyperelastic:
-    return {E::q1_p0, E::q1_bbar, E::q1, E::q1_wilson, E::q2, E::q2_p1};
-  case Formulation::small_strain:
-  case Formulation::log_strain:
-    break;
-  }
-  return {E::q1_bbar, E::q1, E::q1_p0, E::q1_wilson, E::q2, E::q2_p1};
-}
 
 /// Lists the formulations for a material.  @param model  material.model of a case file
 std::vector<Formulation> formulations_of(const std::string& model) {
@@ -61,23 +45,25 @@ void read_formulation(Table& table, const Material& material, Fem& fem) {
 
 /// The elements required by the material, when this one is not among them; otherwise empty.
 std::string element_needed(Element element, const Material& material) {
-  const Ogden* ogden = std::get_if<Ogden>(&material);
-  if (ogden && !ogden->bulk_modulus &&
-      (element == Element::q1 || element == Element::q1_wilson || element == Element::q2))
-    return "\"q1_p0\" | \"q1_bbar\" | \"q2_p1\" with an ogden material that has no bulk_modulus: it is "
-           "nearly incompressible, and a displacement element without averaged volume locks";
-  return "";
+  if (!needs_pressure(material) || facts_of(element).has_pressure) return "";
+  return "\"q1_p0\" | \"q1_bbar\" | \"q2_p1\", or \"p2_p0\" on tetrahedra, with an ogden material that has "
+         "no bulk_modulus: it is nearly incompressible, and a displacement element without averaged volume "
+         "locks";
 }
 
-Element read_element(Table& table, Formulation formulation, const Material& material) {
-  const std::vector<Element> allowed = elements_of(formulation);
-  const Element element = table.optional("element", read_name<Element>).value_or(allowed.front());
+/// Elements of both shapes: which of them the body has is known with its mesh.
+void read_element(Table& table, const Material& material, Fem& fem) {
+  const auto named = table.optional("element", read_name<Element>);
+  fem.has_auto_element = !named;
+  fem.element = named.value_or(default_element(fem.formulation, {material}, false));
+  std::vector<Element> allowed;
+  for (const bool is_tetrahedron : {false, true})
+    for (const Element element : elements_of(fem.formulation, is_tetrahedron)) allowed.push_back(element);
   table.refuse_unless(
-      contains(allowed, element), {"element"},
-      fmt::format("{} with formulation = \"{}\"", alternatives(allowed), name_of(formulation)));
-  const std::string needed = element_needed(element, material);
+      contains(allowed, fem.element), {"element"},
+      fmt::format("{} with formulation = \"{}\"", alternatives(allowed), name_of(fem.formulation)));
+  const std::string needed = element_needed(fem.element, material);
   if (!needed.empty()) table.entry("element").refuse(needed);
-  return element;
 }
 
 /// A mesh of that many nodes is numbered with int, three degrees of freedom each.
@@ -110,7 +96,7 @@ Fem read_fem(Table& table, const Case& definition) {
   Fem fem;
   fem.where = table.where();
   read_formulation(table, material, fem);
-  fem.element = read_element(table, fem.formulation, material);
+  read_element(table, material, fem);
   if (const auto refine = table.optional("refine", WholeNumber{"a whole number from 0 to 8", 0, 8})) {
     fem.refine = *refine;
     check_refined_size(table.entry("refine"), definition.body, fem.refine);

@@ -1,5 +1,7 @@
 #include "cases/mesh/cell_point.hpp"
 
+#include "cases/mesh/cell_children.hpp"
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -55,21 +57,27 @@ ShapeValues weights_at(CellShape shape, const CellPoint& point) {
   return weights;
 }
 
+CellCorners child_corners(CellShape shape, std::size_t child) {
+  CellCorners corners;
+  if (shape == CellShape::tetrahedron) {
+    const auto vertex = [](int v) { return Vector3d(v == 1, v == 2, v == 3); };
+    for (const auto& [a, b] : tetrahedron_children[child]) corners.push_back((vertex(a) + vertex(b)) / 2);
+    return corners;
+  }
+  const auto vertex = [](std::size_t v) { return Vector3d(v & 1U, v >> 1U & 1U, v >> 2U); };
+  for (std::size_t v = 0; v < 8; ++v) corners.push_back((vertex(v) + vertex(child)) / 2);
+  return corners;
+}
+
 namespace {
 
 /// The child of a tetrahedron that holds a point, or comes nearest to it.
 CellPoint in_child_of_tetrahedron(const CellPoint& point) {
   const CellShape shape = CellShape::tetrahedron;
-  const auto corner = [](int v) {
-    Vector3d at = Vector3d::Zero();
-    if (v > 0) at[v - 1] = 1;
-    return at;
-  };
   CellPoint best{};
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t child = 0; child < 8; ++child) {
-    CellCorners corners;
-    for (const auto& [a, b] : tetrahedron_children[child]) corners.push_back((corner(a) + corner(b)) / 2);
+    const CellCorners corners = child_corners(shape, child);
     const Eigen::Matrix3d to_child = jacobian(corners, Vector3d::Zero()).inverse();
     const Vector3d at = to_child * (point.at - corners[0]);
     const double outside = distance_outside(shape, at);

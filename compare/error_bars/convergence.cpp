@@ -1,5 +1,6 @@
 #include "compare/error_bars/convergence.hpp"
 
+#include "cases/case/elements.hpp"
 #include "cases/case/read_case.hpp"
 #include "cases/scene/scene.hpp"
 #include "compare/measure/measure.hpp"
@@ -55,11 +56,6 @@ bool is_confirmed(double power, double power_before) {
 
 const char* const unconfirmed = "an order that no second step confirms";
 const char* const turning = "the values oscillate";
-
-/// The highest order of an element's displacements, 2 or 4; a higher one that is observed is an accident.
-double formal_order(cases::Element element) {
-  return element == cases::Element::q2 || element == cases::Element::q2_p1 ? 4 : 2;
-}
 
 std::string accident(double power, double formal_order) {
   return fmt::format("an order of {:.1f}, which elements of order {:.0f} show by accident", std::log2(power),
@@ -280,7 +276,7 @@ std::vector<std::string> failures_of(const Answers& halves) {
 } // namespace
 
 MeshStudy study_meshes(const cases::Scene& scene, const RefinedMeshes& meshes, int own_refine) {
-  const double order = formal_order(scene.definition.fem.element);
+  const double order = cases::facts_of(scene.definition.fem.element).order;
   MeshStudy study;
   study.refine = meshes.refine;
   std::vector<const VectorField*> fields;

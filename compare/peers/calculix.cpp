@@ -38,10 +38,13 @@ void write_mesh(std::ostream& out, const cases::Mesh& mesh) {
     const Vector3d& x = mesh.nodes[n];
     fmt::print(out, "{}, {}, {}, {}\n", n + 1, number(x[0]), number(x[1]), number(x[2]));
   }
-  fmt::print(out, "*ELEMENT, TYPE=C3D8, ELSET=EALL\n");
+  const bool is_tetrahedron = mesh.shape == cases::CellShape::tetrahedron;
+  fmt::print(out, "*ELEMENT, TYPE={}, ELSET=EALL\n", is_tetrahedron ? "C3D4" : "C3D8");
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const cases::CellNodes vertices = mesh.cells[c];
     fmt::print(out, "{}", c + 1);
-    for (const std::size_t v : cases::around_cell) fmt::print(out, ", {}", mesh.cells[c][v] + 1);
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      fmt::print(out, ", {}", vertices[is_tetrahedron ? v : cases::around_cell[v]] + 1);
     fmt::print(out, "\n");
   }
 }
@@ -172,14 +175,19 @@ void write_motion_input(std::ostream& out, const cases::Scene& scene) {
   fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=1\nU\n*END STEP\n");
 }
 
+/// Whether CalculiX has an element: C3D8 and C3D4.
+bool has_element(cases::Element element) {
+  return element == cases::Element::q1 || element == cases::Element::p1;
+}
+
 /// Why CalculiX cannot follow a dynamic case.
 std::optional<std::string> reason_without_calculix_motion(const cases::Case& definition) {
   if (!std::holds_alternative<cases::LinearElastic>(definition.material) ||
       !definition.region_materials.empty())
     return "its input has one linear elastic material";
   if (!definition.masses.empty()) return "its input has no weights";
-  if (definition.fem.element != cases::Element::q1 || definition.fem.mass != cases::ElementMass::consistent)
-    return "it has the element q1, with consistent masses";
+  if (!has_element(definition.fem.element) || definition.fem.mass != cases::ElementMass::consistent)
+    return "it has the elements q1 and p1, with consistent masses";
   const cases::TimeScheme& scheme = definition.dynamics->scheme;
   if (scheme.scheme != cases::Scheme::newmark || scheme.beta != 0.25 || scheme.gamma != 0.5)
     return "its scheme is newmark with beta = 1/4 and gamma = 1/2";
@@ -209,9 +217,10 @@ std::optional<std::string> reason_without_calculix(const cases::Case& definition
   const cases::Fem& fem = definition.fem;
   const bool has_formulation = fem.formulation == cases::Formulation::small_strain ||
                                fem.formulation == cases::Formulation::saint_venant_kirchhoff;
-  if (has_formulation && fem.element == cases::Element::q1) return std::nullopt;
-  return fmt::format("CalculiX has small_strain and saint_venant_kirchhoff with element q1, not {} with {}",
-                     cases::name_of(fem.formulation), cases::name_of(fem.element));
+  if (has_formulation && has_element(fem.element)) return std::nullopt;
+  return fmt::format(
+      "CalculiX has small_strain and saint_venant_kirchhoff with elements q1 and p1, not {} with {}",
+      cases::name_of(fem.formulation), cases::name_of(fem.element));
 }
 
 void write_calculix_input(std::ostream& out, const cases::Scene& scene) {

@@ -1,5 +1,6 @@
 #include "compare/solve/estimate.hpp"
 
+#include "cases/case/elements.hpp"
 #include "cases/case/error.hpp"
 #include "cases/mesh/fill_surface.hpp"
 #include "cases/mesh/labels.hpp"
@@ -66,9 +67,12 @@ Estimate factorised(const std::string& model, double unknowns, const Factorised&
           at.seconds * std::pow(ratio, time_power)};
 }
 
-/// Nodes after n uniform refinements: about as many inner nodes as cells, and the others on the surface.
+/// Nodes after n uniform refinements: about as many inner nodes as hexahedra, or a sixth as many as
+/// tetrahedra, and the others on the surface.
 double refined_nodes(const BodySize& body, int n) {
-  return body.n_cells * std::pow(8, n) + (body.n_nodes - body.n_cells) * std::pow(4, n);
+  const bool is_tetrahedron = cases::facts_of(body.outline.definition.fem.element).is_tetrahedron;
+  const double inner = is_tetrahedron ? body.n_cells / 6 : body.n_cells;
+  return inner * std::pow(8, n) + (body.n_nodes - inner) * std::pow(4, n);
 }
 
 /// Nodes along the axes of a body's grid after n halvings.

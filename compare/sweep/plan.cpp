@@ -1,5 +1,6 @@
 #include "compare/sweep/sweep.hpp"
 
+#include "cases/case/elements.hpp"
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "cases/scene/scene.hpp"
@@ -26,7 +27,7 @@ constexpr std::array<double, 3> tolerances{1e-2, 1e-4, tight};
 
 /// Unknowns of a displacement element on a box, held ones included.
 long n_unknowns(const std::array<int, 3>& cells, Element element) {
-  const int degree = element == Element::q2 || element == Element::q2_p1 ? 2 : 1;
+  const int degree = cases::facts_of(element).degree;
   long n = 3;
   for (const int c : cells) n *= degree * c + 1;
   return n;

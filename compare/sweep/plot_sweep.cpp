@@ -112,8 +112,12 @@ int marker_of(cases::Element element) {
     return 6;
   case cases::Element::q1_wilson:
     return 8;
+  case cases::Element::p1:
+    return 10;
   case cases::Element::q2:
   case cases::Element::q2_p1:
+  case cases::Element::p2:
+  case cases::Element::p2_p0:
     break;
   }
   return 12;

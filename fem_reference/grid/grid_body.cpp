@@ -4,6 +4,7 @@
 #include "fem_reference/cuboid.hpp"
 #include "fem_reference/grid/on_grid.hpp"
 #include "mechanics/ranks/share_out.hpp"
+#include "mechanics/shape_products.hpp"
 
 #include <cmath>
 
@@ -220,10 +221,17 @@ ElementsInState GridBody::elements(const Vector& state, const cases::Sharing* sh
         internal[f] = state[equations.n_displacements() +
                             static_cast<Eigen::Index>(f * index(body_.layout.n_cell_entries()) + entry)];
       const Eigen::Vector3d lower = edge * Eigen::Vector3d(part.in_cell[0], part.in_cell[1], part.in_cell[2]);
-      action({{part.cell, lower, edge}, cuboid->geometry(), displacement.data(), internal.data()});
+      action({{part.cell, lower, edge * Eigen::Matrix3d::Identity()},
+              cuboid->geometry(),
+              displacement.data(),
+              internal.data()});
     });
   };
-  return {scene, std::move(formulations), type, cuboid->nodes(), cells, for_each};
+  const CellGeometry cell = cuboid->geometry();
+  const Eigen::MatrixXd of_all =
+      mechanics::shape_products(cell.n_nodes, cell.n_points, cuboid->values().data(), cell.weights, 1);
+  const auto products = [of_all](const CellGeometry&) { return of_all; };
+  return {scene, std::move(formulations), type, cuboid->nodes(), products, cells, for_each};
 }
 
 } // namespace springproof::fem_reference::grid

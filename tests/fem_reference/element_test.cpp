@@ -1,5 +1,6 @@
 #include "fem_reference/element.hpp"
 
+#include "cases/case/elements.hpp"
 #include "fem_reference/discretisation.hpp"
 #include "fem_reference/element_stiffness.hpp"
 #include "fem_reference/laws/formulation.hpp"
@@ -126,8 +127,7 @@ Eigen::MatrixXd bbar_stiffness(const CellGeometry& g, const cases::LinearElastic
 }
 
 bool has_meaning(cases::Formulation formulation, Element element) {
-  return formulation != cases::Formulation::saint_venant_kirchhoff || element == Element::q1 ||
-         element == Element::q1_wilson || element == Element::q2;
+  return formulation != cases::Formulation::saint_venant_kirchhoff || !cases::facts_of(element).has_pressure;
 }
 
 } // namespace

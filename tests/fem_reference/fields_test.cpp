@@ -1,11 +1,13 @@
 #include "fem_reference/assembled_body.hpp"
 
+#include "cases/case/elements.hpp"
 #include "cases/scene/loads.hpp"
 #include "fem_reference/model.hpp"
 #include "scenes.hpp"
 #include "solved.hpp"
 #include "tests/fem_reference/laws/point_law.hpp"
 #include "tests/support/largest.hpp"
+#include "tests/support/scene_in_tetrahedra.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
@@ -81,7 +83,7 @@ TEST_CASE("distorted cells under a uniform strain have the law's stress, its ene
       Eigen::AngleAxisd(0.3, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix() * stretched;
   for (const auto& [formulation, material, law] : laws())
     for (const Element element : scenes::all_elements) {
-      if (law.split == Split::none && element != Element::q1 && element != Element::q2) continue;
+      if (law.split == Split::none && cases::facts_of(element).has_pressure) continue;
       const bool is_linear = law.kinematics == Kinematics::linear;
       const Matrix3 f = is_linear ? stretched : turned;
       const auto scene = scenes::distorted_box(3, scenes::Surface::fixed, material, formulation, element);
@@ -122,14 +124,15 @@ TEST_CASE("the reaction of a clamped face is the applied load, on every backend,
           "[verification]") {
   const Vector3d value(0.004, -0.001, 0.003);
   for (const auto backend : {Backend::assembled, Backend::grid})
-    for (const auto element :
-         {Element::q1, Element::q1_bbar, Element::q1_wilson, Element::q2, Element::q2_p1})
+    for (const auto element : {Element::q1, Element::q1_bbar, Element::q1_wilson, Element::q2, Element::q2_p1,
+                               Element::p1, Element::p2_p0})
       for (const int refine : {0, 1}) {
-        if (backend == Backend::grid && element == Element::q2_p1) continue;
-        if (refine == 1 && (element == Element::q2 || element == Element::q2_p1)) continue; // seconds
+        const cases::ElementFacts& facts = cases::facts_of(element);
+        if (backend == Backend::grid && (element == Element::q2_p1 || facts.is_tetrahedron)) continue;
+        if (refine == 1 && !facts.is_tetrahedron && facts.degree == 2) continue; // seconds
         cases::Case definition = block(cases::Formulation::log_strain, element, value);
         definition.fem.refine = refine;
-        const cases::Scene scene = cases::make_scene(definition);
+        const cases::Scene scene = tetrahedra::make_scene(definition);
         Model model(scene, MPI_COMM_SELF, backend);
         const cases::Solution solution = model.solve();
         const cases::Fields fields = model.fields(nullptr);
@@ -228,16 +231,32 @@ TEST_CASE("a cell's stress, strain and energy approach their limits with the squ
   }
 }
 
+TEST_CASE("a refined tetrahedron knows its place in the body's cell") {
+  const cases::Mesh body = bodies::cut_in_tetrahedra(cases::make_box_mesh({2, 1, 1}, {2, 1, 1}));
+  const cases::Mesh fine = cases::refine(cases::refine(body));
+  for (std::size_t c = 0; c < fine.cells.size(); ++c) {
+    const ElementPlace place = place_of(body.shape, c, 2);
+    const cases::CellCorners corners = cases::cell_corners(fine, c);
+    REQUIRE(place.cell < body.cells.size());
+    for (std::size_t v = 0; v < 4; ++v) {
+      const Vector3d vertex(v == 1, v == 2, v == 3);
+      const Vector3d found =
+          cases::image(cases::cell_corners(body, place.cell), place.origin + place.axes * vertex);
+      CHECK((found - corners[v]).norm() <= 1e-15);
+    }
+  }
+}
+
 TEST_CASE("a refined cell knows its place in the body's cell") {
   const cases::Mesh body = cases::make_box_mesh({2, 1, 1}, {2, 1, 1});
   const cases::Mesh fine = cases::refine(cases::refine(body));
   for (std::size_t c = 0; c < fine.cells.size(); ++c) {
-    const ElementPlace place = place_of(c, 2);
+    const ElementPlace place = place_of(body.shape, c, 2);
     const Vector3d corner = fine.nodes[cases::index(fine.cells[c][0])];
     CAPTURE(c);
     REQUIRE(place.cell < 2);
-    CHECK(place.edge == 0.25);
-    CHECK((corner - (place.lower + Vector3d(double(place.cell), 0, 0))).norm() <= 1e-15);
+    CHECK(place.axes == Eigen::Matrix3d(0.25 * Eigen::Matrix3d::Identity()));
+    CHECK((corner - (place.origin + Vector3d(double(place.cell), 0, 0))).norm() <= 1e-15);
   }
 }
 

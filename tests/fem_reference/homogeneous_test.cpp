@@ -1,5 +1,6 @@
 #include "scenes.hpp"
 #include "solved.hpp"
+#include "tests/support/scene_in_tetrahedra.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -69,7 +70,7 @@ cases::Scene one_cell(const cases::Ogden& material, Element element,
   definition.fem.formulation = cases::Formulation::hyperelastic;
   definition.fem.element = element;
   definition.fixed = scenes::on_rollers(normal_supports);
-  return cases::make_scene(definition);
+  return tetrahedra::make_scene(definition);
 }
 
 /// A cube stretched along x, or along x and y, the rest free.

@@ -7,6 +7,7 @@
 #include "cases/scene/loads.hpp"
 #include "fem_reference/model.hpp"
 #include "scenes.hpp"
+#include "tests/support/scene_in_tetrahedra.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -54,7 +55,7 @@ TEST_CASE("a traction on a cross section inside a bar pulls what lies between it
   for (const cases::Element element : scenes::all_elements)
     for (const int refine : {0, 1})
       for (const Backend backend : {Backend::assembled, Backend::automatic}) {
-        const auto scene = cases::make_scene(bar(element, refine, pull));
+        const auto scene = tetrahedra::make_scene(bar(element, refine, pull));
         CHECK(cases::area(scene.mesh, scene.loads.front().selection) == Approx(4)); // each face once
         const auto found = fem_reference::Model(scene, MPI_COMM_SELF, backend).solve();
         CAPTURE(cases::name_of(element), refine, static_cast<int>(backend));
@@ -67,7 +68,7 @@ TEST_CASE("a traction on a cross section inside a bar pulls what lies between it
 TEST_CASE("a torque on a cross section inside a bar twists what lies beyond as a body", "[verification]") {
   for (const cases::Element element : scenes::all_elements)
     for (const Backend backend : {Backend::assembled, Backend::automatic}) {
-      const auto scene = cases::make_scene(bar(element, 0, inner_torque));
+      const auto scene = tetrahedra::make_scene(bar(element, 0, inner_torque));
       const auto found = fem_reference::Model(scene, MPI_COMM_SELF, backend).solve();
       const double inner = displacement_at(scene, found, {6, 0, 0}).z(),
                    end = displacement_at(scene, found, {8, 0, 0}).z();

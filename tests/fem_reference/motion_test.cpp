@@ -7,6 +7,7 @@
 #include "tests/mechanics/dynamics/manufactured_motion.hpp"
 #include "tests/support/bodies.hpp"
 #include "tests/support/largest.hpp"
+#include "tests/support/scene_in_tetrahedra.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -37,7 +38,7 @@ cases::Case bar(bool is_held, cases::Formulation formulation, cases::Element ele
 /// Scenes of dynamic cases and of gravity.
 cases::Scene weighed(const cases::Case& definition, const Vector3d& along,
                      const std::optional<cases::Dynamics>& dynamics, const cases::History& history = {}) {
-  cases::Scene scene = cases::make_scene(definition);
+  cases::Scene scene = tetrahedra::make_scene(definition);
   cases::Load load{{}, cases::loads::Gravity{9.81 * along}};
   load.history = history;
   scene.definition.loads.push_back(load);
@@ -66,7 +67,7 @@ cases::Solution equilibrium(cases::Scene scene) {
 } // namespace
 
 TEST_CASE("a bar is stretched by its own weight as analysis says", "[verification]") {
-  for (const auto element : {cases::Element::q1, cases::Element::q2}) {
+  for (const auto element : {cases::Element::q1, cases::Element::q2, cases::Element::p2}) {
     INFO(name_of(element));
     const cases::Scene scene = weighed(bar(true, cases::Formulation::small_strain, element, {1000., 0, 0}, 0),
                                        Vector3d::UnitZ(), std::nullopt);
@@ -80,7 +81,8 @@ TEST_CASE("a bar is stretched by its own weight as analysis says", "[verificatio
 }
 
 TEST_CASE("gravity's forces on the nodes add up to all weights") {
-  for (const auto element : {cases::Element::q1, cases::Element::q2}) {
+  for (const auto element :
+       {cases::Element::q1, cases::Element::q2, cases::Element::p1, cases::Element::p2}) {
     cases::Case definition = bar(true, cases::Formulation::small_strain, element);
     definition.masses.push_back({cases::Region{"z+"}, 0.004}); // kg
     const fem_reference::AssembledBody body(weighed(definition, Vector3d::UnitZ(), std::nullopt),
@@ -93,7 +95,8 @@ TEST_CASE("gravity's forces on the nodes add up to all weights") {
 
 TEST_CASE("finite elements that nothing holds fall as the parabola says, and keep their shape",
           "[verification][long]") {
-  for (const auto element : {cases::Element::q1, cases::Element::q1_bbar, cases::Element::q2})
+  for (const auto element : {cases::Element::q1, cases::Element::q1_bbar, cases::Element::q2,
+                             cases::Element::p1, cases::Element::p2, cases::Element::p2_p0})
     for (const auto mass : {cases::ElementMass::consistent, cases::ElementMass::lumped}) {
       INFO(name_of(element) << ", " << name_of(mass));
       cases::Case definition = bar(false, cases::Formulation::log_strain, element);
@@ -107,7 +110,7 @@ TEST_CASE("finite elements that nothing holds fall as the parabola says, and kee
 
 TEST_CASE("damped finite elements come to rest in their static equilibrium", "[verification]") {
   for (const auto formulation : {cases::Formulation::small_strain, cases::Formulation::log_strain})
-    for (const auto element : {cases::Element::q1, cases::Element::q1_bbar}) {
+    for (const auto element : {cases::Element::q1, cases::Element::q1_bbar, cases::Element::p2_p0}) {
       INFO(name_of(formulation) << ", " << name_of(element));
       const cases::Scene scene = weighed(bar(true, formulation, element, {1000., 200, 0.01}),
                                          Vector3d(1, 0, -1), steps(cases::Scheme::implicit_euler, 0.05, 10));
@@ -119,7 +122,7 @@ TEST_CASE("damped finite elements come to rest in their static equilibrium", "[v
 }
 
 TEST_CASE("finite elements that start in equilibrium stay where they are", "[verification]") {
-  for (const auto element : {cases::Element::q1, cases::Element::q1_bbar}) {
+  for (const auto element : {cases::Element::q1, cases::Element::q1_bbar, cases::Element::p2_p0}) {
     const cases::Scene scene =
         weighed(bar(true, cases::Formulation::log_strain, element), Vector3d::UnitX(),
                 steps(cases::Scheme::newmark, 0.001, 0.02, cases::MotionStart::equilibrium));
@@ -129,7 +132,7 @@ TEST_CASE("finite elements that start in equilibrium stay where they are", "[ver
 }
 
 TEST_CASE("finite elements follow a step far beyond their period to where statics are", "[verification]") {
-  for (const auto element : {cases::Element::q1, cases::Element::q1_bbar}) {
+  for (const auto element : {cases::Element::q1, cases::Element::q1_bbar, cases::Element::p2_p0}) {
     INFO(name_of(element));
     const cases::Scene scene = weighed(bar(true, cases::Formulation::log_strain, element), Vector3d::UnitX(),
                                        steps(cases::Scheme::implicit_euler, 1000, 3000));
@@ -140,7 +143,7 @@ TEST_CASE("finite elements follow a step far beyond their period to where static
 
 TEST_CASE("a support that moves takes damped finite elements along", "[verification]") {
   for (const auto formulation : {cases::Formulation::small_strain, cases::Formulation::log_strain})
-    for (const auto element : {cases::Element::q1, cases::Element::q1_bbar}) {
+    for (const auto element : {cases::Element::q1, cases::Element::q1_bbar, cases::Element::p2_p0}) {
       INFO(name_of(formulation) << ", " << name_of(element));
       cases::Case definition = bar(false, formulation, element, {1000., 200, 0.01});
       cases::Moved moved;
@@ -159,7 +162,8 @@ TEST_CASE("a support that moves takes damped finite elements along", "[verificat
 }
 
 TEST_CASE("the tangent of the finite elements' step is the derivative of its residual, inertia included") {
-  for (const auto element : {cases::Element::q1, cases::Element::q2}) {
+  for (const auto element :
+       {cases::Element::q1, cases::Element::q2, cases::Element::p1, cases::Element::p2}) {
     INFO(name_of(element));
     const cases::Scene scene = weighed(bar(true, cases::Formulation::log_strain, element, {1000., 3, 0.02}),
                                        Vector3d::UnitX(), std::nullopt);
@@ -250,9 +254,11 @@ TEST_CASE("what turns about itself keeps its angular momentum, by the scheme tha
 }
 
 TEST_CASE("linear finite elements keep their energy over 10,000 steps of newmark", "[verification][long]") {
-  cases::Case definition = bar(true, cases::Formulation::small_strain, cases::Element::q1);
+  const auto element = GENERATE(cases::Element::q1, cases::Element::p1, cases::Element::p2);
+  CAPTURE(name_of(element));
+  cases::Case definition = bar(true, cases::Formulation::small_strain, element);
   definition.body = cases::Box{{side, side, length}, {1, 1, 2}};
-  const cases::Scene scene = cases::make_scene(definition);
+  const cases::Scene scene = tetrahedra::make_scene(definition);
   fem_reference::AssembledBody body(scene, MPI_COMM_SELF);
   body.equations.set_in_motion(scene, body.formulations);
   mechanics::DynamicProblem& motion = body.equations;

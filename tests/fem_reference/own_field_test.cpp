@@ -1,6 +1,7 @@
 #include "fem_reference/cuboid.hpp"
 #include "fem_reference/element_fields.hpp"
 #include "fem_reference/model.hpp"
+#include "mechanics/shape_products.hpp"
 #include "tests/fem_reference/scenes.hpp"
 #include "tests/support/bodies.hpp"
 
@@ -96,11 +97,18 @@ TEST_CASE("the norms of one quadratic element are its field's and not its corner
   const auto norms = fem_reference::displacement_norms(
       {scene,
        {},
-       {Element::q2, 2, fem_reference::Pressure::pointwise, 0},
+       {Element::q2, cases::CellShape::hexahedron, 2, fem_reference::Pressure::pointwise, 0},
        cuboid.nodes(),
+       [&](const fem_reference::CellGeometry& cell) {
+         return mechanics::shape_products(cell.n_nodes, cell.n_points, cuboid.values().data(), cell.weights,
+                                          1);
+       },
        {},
        [&](const auto& action) {
-         action({{0, Vector3d::Zero(), 1}, cuboid.geometry(), displacement.data(), nullptr});
+         action({{0, Vector3d::Zero(), Eigen::Matrix3d::Identity()},
+                 cuboid.geometry(),
+                 displacement.data(),
+                 nullptr});
        }},
       nullptr);
   CHECK(norms.root_mean_square == Approx(std::sqrt(16. / 5 + 1)).epsilon(1e-13)); // mean of x⁴

@@ -2,6 +2,7 @@
 
 #include "grid/moving_block.hpp"
 #include "tests/support/largest.hpp"
+#include "tests/support/scene_in_tetrahedra.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -29,11 +30,14 @@ TEST_CASE("two ranks and one find the same displacement and cell volumes", "[.][
                                  Combination{Formulation::log_strain, Element::q1_bbar, 4},
                                  Combination{Formulation::log_strain, Element::q1_wilson, 4},
                                  Combination{Formulation::hyperelastic, Element::q1_p0, 4},
-                                 Combination{Formulation::hyperelastic, Element::q2_p1, 2});
+                                 Combination{Formulation::hyperelastic, Element::q2_p1, 2},
+                                 Combination{Formulation::small_strain, Element::p1, 4},
+                                 Combination{Formulation::log_strain, Element::p2, 3},
+                                 Combination{Formulation::hyperelastic, Element::p2_p0, 2});
   cases::Material material = scenes::thesis_elastic();
   if (c.formulation == Formulation::hyperelastic) material = scenes::thesis_ogden();
-  const auto scene = cases::make_scene(scenes::cube(scenes::Test::torsion, scenes::LoadSet::small, material,
-                                                    c.formulation, c.element, c.cells));
+  const auto scene = tetrahedra::make_scene(scenes::cube(scenes::Test::torsion, scenes::LoadSet::small,
+                                                         material, c.formulation, c.element, c.cells));
   fem_reference::Model shared(scene, MPI_COMM_WORLD), own(scene, MPI_COMM_SELF);
   const auto together = shared.solve(), alone = own.solve();
   // stiff pressures amplify 1e-10

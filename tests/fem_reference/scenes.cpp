@@ -1,5 +1,7 @@
 #include "scenes.hpp"
 
+#include "tests/support/scene_in_tetrahedra.hpp"
+
 #include <cmath>
 
 using namespace springproof;
@@ -98,6 +100,7 @@ cases::Scene distorted_box(int cells, Surface surface, const cases::Material& ma
   scene.definition.fem.element = element;
   scene.mesh = cases::make_box_mesh(Vector3d::Ones(), {cells, cells, cells});
   scene.mesh.grid.reset();
+  if (cases::facts_of(element).is_tetrahedron) scene.mesh = bodies::cut_in_tetrahedra(scene.mesh);
   std::vector<bool> on_surface(scene.mesh.nodes.size());
   for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
     Vector3d& x = scene.mesh.nodes.stored()[n];

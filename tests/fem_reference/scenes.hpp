@@ -10,9 +10,10 @@ using namespace springproof;
 /// Scenes that the tests of the finite-element side share.
 namespace scenes {
 
-constexpr cases::Element all_elements[] = {cases::Element::q1,    cases::Element::q1_bbar,
-                                           cases::Element::q1_p0, cases::Element::q1_wilson,
-                                           cases::Element::q2,    cases::Element::q2_p1};
+constexpr cases::Element all_elements[] = {
+    cases::Element::q1,        cases::Element::q1_bbar, cases::Element::q1_p0,
+    cases::Element::q1_wilson, cases::Element::q2,      cases::Element::q2_p1,
+    cases::Element::p1,        cases::Element::p2,      cases::Element::p2_p0};
 
 inline cases::Load traction(const std::string& where, const Eigen::Vector3d& value) {
   return {{where}, cases::loads::Traction{value}};
@@ -37,8 +38,8 @@ cases::TransverselyIsotropic fibrous(const Eigen::Vector3d& fibre);
 std::array<double, 2> cube_measures(Test test, const cases::Mesh& mesh,
                                     const std::vector<Eigen::Vector3d>& displacement);
 
-/// A box whose interior nodes have been moved, so that no two cells are alike; every node of its surface is
-/// fixed unless free_surface says otherwise.
+/// A box whose interior nodes have been moved, so that no two cells are alike, of cells of the element's
+/// shape; every node of its surface is fixed unless free_surface says otherwise.
 enum class Surface { fixed, free };
 cases::Scene distorted_box(int cells, Surface surface, const cases::Material& material,
                            cases::Formulation formulation, cases::Element element);

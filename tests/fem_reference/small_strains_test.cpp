@@ -5,6 +5,7 @@
 #include "fem_reference/model.hpp"
 #include "scenes.hpp"
 #include "tests/support/largest.hpp"
+#include "tests/support/scene_in_tetrahedra.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -26,7 +27,7 @@ cases::Scene pulled_cube(cases::Formulation formulation, Element element, double
   definition.fem.element = element;
   definition.fixed = scenes::on_rollers({"x-", "y-", "z-"});
   definition.loads = {scenes::traction("z+", {0, 0, traction})};
-  return cases::make_scene(definition);
+  return tetrahedra::make_scene(definition);
 }
 
 /// Largest distance from u = strain (z e_z - nu (x e_x + y e_y)), over the largest displacement.

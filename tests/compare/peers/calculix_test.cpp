@@ -5,6 +5,7 @@
 #include "cases/case/read_case.hpp"
 #include "compare/solve/solvers.hpp"
 #include "tests/support/largest.hpp"
+#include "tests/support/scene_in_tetrahedra.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -50,7 +51,7 @@ void check_agrees(const cases::Case& definition) {
     WARN("CalculiX (ccx) is not installed: nothing was compared");
     return;
   }
-  const cases::Scene scene = cases::make_scene(definition);
+  const cases::Scene scene = tetrahedra::make_scene(definition);
   const cases::Solution peer = solve_with_calculix(scene);
   REQUIRE(peer.status == cases::Status::converged);
   const cases::Solution ours = compare::make_finite_elements(scene)->solve();
@@ -134,6 +135,12 @@ TEST_CASE("small strain on the cube agrees with CalculiX on every node", "[peer]
   for (const char* test : {"tensile", "shear", "torsion"})
     for (const char* set : {"small", "large"})
       check_agrees(cube(std::string(test) + "_" + set, {"fem.formulation=small_strain"}));
+}
+
+TEST_CASE("tetrahedra of degree 1 agree with CalculiX's C3D4 on every node", "[peer]") {
+  for (const char* formulation : {"small_strain", "saint_venant_kirchhoff"})
+    check_agrees(cube("shear_small", {std::string("fem.formulation=") + formulation, "fem.element=p1",
+                                      "body.cells=[3,3,4]"}));
 }
 
 TEST_CASE("a bar that is loaded at once moves as CalculiX says, at equal steps of newmark", "[peer]") {

@@ -1,0 +1,60 @@
+#include "cases/case/elements.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace springproof::cases {
+
+namespace {
+
+using E = Element;
+
+/// The order of an element with one constant pressure is that of its pressure's error squared. The first of a
+/// shape are the defaults.
+constexpr std::array<ElementFacts, 9> table{{{E::q1_bbar, false, 1, true, 2},
+                                             {E::q1, false, 1, false, 2},
+                                             {E::q1_p0, false, 1, true, 2},
+                                             {E::q1_wilson, false, 1, false, 2},
+                                             {E::q2, false, 2, false, 4},
+                                             {E::q2_p1, false, 2, true, 4},
+                                             {E::p2, true, 2, false, 4},
+                                             {E::p1, true, 1, false, 2},
+                                             {E::p2_p0, true, 2, true, 2}}};
+
+/// Poisson's ratio from which tetrahedra of degree 2 have a pressure by default.
+constexpr double nearly_incompressible = 0.49;
+
+} // namespace
+
+const ElementFacts& facts_of(Element element) {
+  return *std::find_if(table.begin(), table.end(), [=](const auto& row) { return row.element == element; });
+}
+
+std::vector<Element> elements_of(Formulation formulation, bool is_tetrahedron) {
+  std::vector<Element> found;
+  for (const ElementFacts& row : table)
+    if (row.is_tetrahedron == is_tetrahedron &&
+        !(row.has_pressure && formulation == Formulation::saint_venant_kirchhoff))
+      found.push_back(row.element);
+  return found;
+}
+
+Element default_element(Formulation formulation, const std::vector<Material>& materials,
+                        bool is_tetrahedron) {
+  const bool has_pressure = formulation != Formulation::saint_venant_kirchhoff;
+  if (!is_tetrahedron) {
+    if (formulation == Formulation::hyperelastic) return Element::q1_p0; // the name of a law in stretches
+    return elements_of(formulation, false).front();
+  }
+  const bool is_stiff = std::any_of(materials.begin(), materials.end(), [](const Material& material) {
+    return is_isotropic(material) && poissons_ratio_of(material) >= nearly_incompressible;
+  });
+  return has_pressure && is_stiff ? Element::p2_p0 : Element::p2;
+}
+
+bool needs_pressure(const Material& material) {
+  const Ogden* ogden = std::get_if<Ogden>(&material);
+  return ogden != nullptr && !ogden->bulk_modulus;
+}
+
+} // namespace springproof::cases

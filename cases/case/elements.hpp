@@ -1,0 +1,30 @@
+#pragma once
+
+#include "cases/case/case.hpp"
+
+/// What of an element decides where it may be used.
+namespace springproof::cases {
+
+struct ElementFacts {
+  Element element;
+  bool is_tetrahedron; ///< else a hexahedron
+  int degree;          ///< the displacement's
+  bool has_pressure;   ///< averages the volume of a cell or has its pressure as an unknown
+  int order;           ///< the highest in which displacements of points converge in h
+};
+
+const ElementFacts& facts_of(Element element);
+
+/// The elements of a shape that a formulation has, its default first. The pressure of a mixed or averaged
+/// element acts on the volume ratio J; Saint Venant-Kirchhoff's law S = lambda tr(E) I + 2 mu E has no such
+/// part, so there is nothing to average in it.
+std::vector<Element> elements_of(Formulation formulation, bool is_tetrahedron);
+
+/// The element of a case that names none.
+/// @param materials  with nearly incompressible ones among them tetrahedra have a pressure
+Element default_element(Formulation formulation, const std::vector<Material>& materials, bool is_tetrahedron);
+
+/// Whether elements without a pressure lock so badly with a material that they are refused.
+bool needs_pressure(const Material& material);
+
+} // namespace springproof::cases
