@@ -56,10 +56,7 @@ int ElementType::n_nodes() const {
 }
 
 int ElementType::n_points() const {
-  if (shape == tetrahedron) {
-    if (degree == 1) return 1;
-    return pressure == Pressure::modes ? 8 : 4;
-  }
+  if (shape == tetrahedron) return degree == 1 ? 1 : 4;
   return n_nodes();
 }
 

@@ -33,8 +33,7 @@ struct ElementType {
 
   int n_nodes() const;
   /// Points at which a cell's stress is evaluated. In tetrahedra they are as few as make its forces exact in
-  /// small strains, 1 or 4; but 8 with a constant pressure, since the shears of 4 leave a cell three motions
-  /// without force.
+  /// small strains, 1 or 4.
   int n_points() const;
   /// Unknowns of a cell that are condensed in the linear solve: pressures, or components of bubbles.
   int n_internal() const { return n_pressure_modes + 3 * n_bubbles; }
