@@ -34,11 +34,6 @@ double n_element_nodes(const cases::Fem& fem, double n_nodes) {
 }
 
 Backend backend_of(const cases::Scene& scene, Backend asked) {
-  if (scene.mesh.shape == cases::CellShape::tetrahedron)
-    throw cases::InputError(scene.definition.fem.where,
-                            "the finite elements have hexahedra alone, and the body is a mesh of tetrahedra: "
-                            "--only msm solves its springs, and shape = \"surface\" with fill = \"cubes\" "
-                            "makes a body for both models");
   if (asked == Backend::automatic) return choose_backend(scene, n_element_nodes(scene));
   if (asked == Backend::grid && !grid::is_on_grid(scene))
     throw cases::InputError(scene.definition.fem.where,

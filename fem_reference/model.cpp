@@ -120,7 +120,6 @@ cases::Solution follow(const cases::Scene& scene, const mechanics::IntegrationSe
 }
 
 mechanics::VibratingBody vibrating_body(const cases::Scene& scene) {
-  backend_of(scene, Backend::assembled); // refuses what has no finite elements
   const AssembledBody body(scene, MPI_COMM_SELF);
   const Discretisation& d = body.discretisation;
   mechanics::VibratingBody result;

@@ -36,7 +36,7 @@ SPRINGPROOF_ENUMERATION(Fill, tetrahedra, cubes)
 struct FilledSurface {
   NamedFile file;
   double size;             ///< mm, > 0: the tetrahedra's edges, about; the cubes' edges
-  Fill fill = Fill::cubes; ///< both models have these
+  Fill fill = Fill::cubes;
   double scale = 1;        ///< mm of a unit of the file
 };
 SPRINGPROOF_FIELDS(FilledSurface, file, size, fill, scale)

@@ -1,5 +1,8 @@
 #include "cases/case/elements.hpp"
 
+#include "cases/case/error.hpp"
+#include "cases/case/names.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -50,6 +53,18 @@ Element default_element(Formulation formulation, const std::vector<Material>& ma
     return is_isotropic(material) && poissons_ratio_of(material) >= nearly_incompressible;
   });
   return has_pressure && is_stiff ? Element::p2_p0 : Element::p2;
+}
+
+void settle_element(Case& definition, bool is_tetrahedron) {
+  Fem& fem = definition.fem;
+  if (facts_of(fem.element).is_tetrahedron == is_tetrahedron) return;
+  if (fem.has_auto_element) {
+    fem.element = default_element(fem.formulation, materials_of(definition), is_tetrahedron);
+    return;
+  }
+  refuse(fem.where, "element is \"{}\", must be {}: the body is a mesh of {}", name_of(fem.element),
+         alternatives(elements_of(fem.formulation, is_tetrahedron)),
+         is_tetrahedron ? "tetrahedra" : "hexahedra");
 }
 
 bool needs_pressure(const Material& material) {

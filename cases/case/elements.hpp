@@ -24,6 +24,10 @@ std::vector<Element> elements_of(Formulation formulation, bool is_tetrahedron);
 /// @param materials  with nearly incompressible ones among them tetrahedra have a pressure
 Element default_element(Formulation formulation, const std::vector<Material>& materials, bool is_tetrahedron);
 
+/// Gives a case that names no element the default of its mesh's shape.
+/// @throws InputError if it names an element of the other shape
+void settle_element(Case& definition, bool is_tetrahedron);
+
 /// Whether elements without a pressure lock so badly with a material that they are refused.
 bool needs_pressure(const Material& material);
 

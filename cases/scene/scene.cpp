@@ -269,21 +269,6 @@ void resolve_network(Scene& scene) {
              spring.a, spring.b);
 }
 
-/// Gives the finite elements those of the mesh's cells, where the case names none.
-/// @throws InputError if it names elements of another shape
-void resolve_element(Scene& scene) {
-  const bool is_tetrahedron = scene.mesh.shape == CellShape::tetrahedron;
-  Fem& fem = scene.definition.fem;
-  if (facts_of(fem.element).is_tetrahedron == is_tetrahedron) return;
-  if (fem.has_auto_element) {
-    fem.element = default_element(fem.formulation, materials_of(scene.definition), is_tetrahedron);
-    return;
-  }
-  const std::vector<Element> allowed = elements_of(fem.formulation, is_tetrahedron);
-  refuse(fem.where, "element is \"{}\", must be {}: the body is a mesh of {}", name_of(fem.element),
-         alternatives(allowed), is_tetrahedron ? "tetrahedra" : "hexahedra");
-}
-
 } // namespace
 
 int material_of(const Scene& scene, std::size_t cell) {
@@ -300,7 +285,7 @@ Scene make_scene(const Case& case_as_read) {
   scene.definition = case_as_read;
   const Case& definition = scene.definition;
   scene.mesh = cut(make_mesh(definition.body, scene.remarks), definition.removed);
-  resolve_element(scene);
+  settle_element(scene.definition, scene.mesh.shape == CellShape::tetrahedron);
   find_nearest_nodes(scene.mesh, scene.definition, scene.remarks);
   resolve_materials(scene);
   add_patches(scene);

@@ -138,7 +138,7 @@ msm::DesignRequest from_case(const DesignOptions& o, cases::Element element) {
   if (scene.mesh.shape == cases::CellShape::tetrahedron)
     throw cases::InputError(o.case_file +
                             ": a design is of one hexahedral cell, and the springs of tetrahedra "
-                            "are fitted to the whole mesh: springproof run CASE --only msm "
+                            "are fitted to the whole mesh: springproof run CASE "
                             "tells what they can do");
   return design_request(scene.definition.material, cases::cell_vertices(scene.mesh, 0), scene.definition.msm,
                         element);

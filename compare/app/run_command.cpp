@@ -107,12 +107,8 @@ std::vector<NextCommand> next_commands(const RunOptions& run, const Comparison& 
   const cases::Case& definition = comparison.scene.definition;
   const Answers& answers = comparison.answers;
   const auto is_skipped = [](const Answer& side) { return side.solution.status == cases::Status::skipped; };
+  if (is_skipped(answers.fem) || is_skipped(answers.msm)) return {{line_of(run, definition), "both models"}};
   std::vector<NextCommand> next;
-  if (is_skipped(answers.fem) || is_skipped(answers.msm)) {
-    if (comparison.scene.mesh.shape == cases::CellShape::hexahedron) // others have springs alone
-      next.push_back({line_of(run, definition), "both models"});
-    return next;
-  }
   if (answers.fem.converged() && answers.msm_source.empty() && !comparison.measures.empty())
     next.push_back({line_of(run, definition, {"--designs", "all"}),
                     answers.msm.converged() ? "other designs" : "designs that may hold here"});

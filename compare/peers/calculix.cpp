@@ -1,5 +1,6 @@
 #include "compare/peers/calculix.hpp"
 
+#include "cases/case/elements.hpp"
 #include "cases/case/names.hpp"
 #include "cases/scene/loads.hpp"
 #include "compare/provenance/call_program.hpp"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fmt/ostream.h>
 #include <fstream>
 #include <sstream>
 
@@ -21,57 +21,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// CalculiX takes a residual below 1e-6 for zero, in whatever unit. Forces in millionths of a newton (and
-/// moduli likewise) put that far below what its convergence is controlled by; displacements do not change.
-constexpr double force_unit = 1e6;
-
 constexpr const char* not_installed = "CalculiX (ccx) is not installed";
-
-/// Fields of CalculiX's input are 20 characters wide at most.
-std::string number(double value) {
-  return fmt::format("{:.12e}", value);
-}
-
-void write_mesh(std::ostream& out, const cases::Mesh& mesh) {
-  fmt::print(out, "*NODE, NSET=NALL\n");
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    const Vector3d& x = mesh.nodes[n];
-    fmt::print(out, "{}, {}, {}, {}\n", n + 1, number(x[0]), number(x[1]), number(x[2]));
-  }
-  const bool is_tetrahedron = mesh.shape == cases::CellShape::tetrahedron;
-  fmt::print(out, "*ELEMENT, TYPE={}, ELSET=EALL\n", is_tetrahedron ? "C3D4" : "C3D8");
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const cases::CellNodes vertices = mesh.cells[c];
-    fmt::print(out, "{}", c + 1);
-    for (std::size_t v = 0; v < vertices.size(); ++v)
-      fmt::print(out, ", {}", vertices[is_tetrahedron ? v : cases::around_cell[v]] + 1);
-    fmt::print(out, "\n");
-  }
-}
-
-/// Mesh, material and supports; a material of a density too, which static steps take no notice of.
-void write_model(std::ostream& out, const cases::Scene& scene) {
-  const auto& material = std::get<cases::LinearElastic>(scene.definition.material);
-  // The case's name could be a card of CalculiX's.
-  fmt::print(out, "*HEADING\nspringproof\n");
-  write_mesh(out, scene.mesh);
-  fmt::print(out, "*MATERIAL, NAME=TISSUE\n*ELASTIC\n{}, {}\n", number(force_unit * material.youngs_modulus),
-             number(material.poissons_ratio));
-  if (const double density = cases::dynamics_of(scene, 0).density; density > 0)
-    fmt::print(out, "*DENSITY\n{}\n", number(force_unit * density));
-  fmt::print(out, "*SOLID SECTION, ELSET=EALL, MATERIAL=TISSUE\n");
-  fmt::print(out, "*BOUNDARY\n");
-  const std::vector<bool> constrained = cases::constrained_dofs(scene);
-  for (std::size_t d = 0; d < constrained.size(); ++d)
-    if (constrained[d]) fmt::print(out, "{0}, {1}, {1}\n", d / 3 + 1, d % 3 + 1);
-}
-
-void write_forces(std::ostream& out, const cases::Scene& scene) {
-  const std::vector<Vector3d> forces = cases::nodal_forces(scene);
-  for (std::size_t n = 0; n < forces.size(); ++n)
-    for (int a = 0; a < 3; ++a)
-      if (forces[n][a] != 0) fmt::print(out, "{}, {}, {}\n", n + 1, a + 1, number(force_unit * forces[n][a]));
-}
 
 /// A number as Fortran prints it. One whose exponent of three digits pushes out the E ("1.234567-101") is 0.
 double fortran_number(const std::string& field) {
@@ -153,31 +103,15 @@ double largest_difference(const cases::Solution& a, const cases::Solution& b) {
   return largest(u - v) / largest(u);
 }
 
-/// An amplitude for every load: before and after its points it is what it is at them.
-void write_motion_input(std::ostream& out, const cases::Scene& scene) {
-  const cases::Dynamics& dynamics = *scene.definition.dynamics;
-  write_model(out, scene);
-  for (std::size_t l = 0; l < scene.loads.size(); ++l) {
-    const cases::History& history = scene.loads[l].load.history;
-    fmt::print(out, "*AMPLITUDE, NAME=LOAD{}\n", l);
-    if (history.points.empty()) fmt::print(out, "0., 1.\n{}, 1.\n", number(dynamics.end));
-    for (const auto& [time, factor] : history.points)
-      fmt::print(out, "{}, {}\n", number(time), number(factor));
-  }
-  fmt::print(out, "*STEP, INC={}\n*DYNAMIC, DIRECT, ALPHA=0.\n{}, {}\n", 10 * dynamics.n_steps(),
-             number(dynamics.step), number(dynamics.end));
-  cases::Scene alone = scene;
-  for (std::size_t l = 0; l < scene.loads.size(); ++l) {
-    alone.loads = {scene.loads[l]};
-    fmt::print(out, "*CLOAD, AMPLITUDE=LOAD{}\n", l);
-    write_forces(out, alone);
-  }
-  fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=1\nU\n*END STEP\n");
+/// Whether CalculiX has an element: C3D8, C3D4 and C3D10.
+bool has_element(cases::Element element) {
+  return element == cases::Element::q1 || element == cases::Element::p1 || element == cases::Element::p2;
 }
 
-/// Whether CalculiX has an element: C3D8 and C3D4.
-bool has_element(cases::Element element) {
-  return element == cases::Element::q1 || element == cases::Element::p1;
+bool measures_volume(const cases::Case& definition) {
+  return std::any_of(
+      definition.measures.begin(), definition.measures.end(),
+      [](const cases::Measure& measure) { return cases::is<cases::measures::Volume>(measure); });
 }
 
 /// Why CalculiX cannot follow a dynamic case.
@@ -187,7 +121,7 @@ std::optional<std::string> reason_without_calculix_motion(const cases::Case& def
     return "its input has one linear elastic material";
   if (!definition.masses.empty()) return "its input has no weights";
   if (!has_element(definition.fem.element) || definition.fem.mass != cases::ElementMass::consistent)
-    return "it has the elements q1 and p1, with consistent masses";
+    return "it has the elements q1, p1 and p2, with consistent masses";
   const cases::TimeScheme& scheme = definition.dynamics->scheme;
   if (scheme.scheme != cases::Scheme::newmark || scheme.beta != 0.25 || scheme.gamma != 0.5)
     return "its scheme is newmark with beta = 1/4 and gamma = 1/2";
@@ -198,8 +132,7 @@ std::optional<std::string> reason_without_calculix_motion(const cases::Case& def
   for (const cases::Load& load : definition.loads)
     if (load.on() == cases::loads::On::masses || load.history.frequency != 0)
       return "its loads have histories in points, and none is gravity";
-  for (const cases::Measure& measure : definition.measures)
-    if (cases::is<cases::measures::Volume>(measure)) return "volumes over time are not read";
+  if (measures_volume(definition)) return "volumes over time are not read";
   return std::nullopt;
 }
 
@@ -217,30 +150,16 @@ std::optional<std::string> reason_without_calculix(const cases::Case& definition
   const cases::Fem& fem = definition.fem;
   const bool has_formulation = fem.formulation == cases::Formulation::small_strain ||
                                fem.formulation == cases::Formulation::saint_venant_kirchhoff;
+  if (fem.element == cases::Element::p2 && measures_volume(definition))
+    return "volumes of quadratic cells are not read";
   if (has_formulation && has_element(fem.element)) return std::nullopt;
   return fmt::format(
-      "CalculiX has small_strain and saint_venant_kirchhoff with elements q1 and p1, not {} with {}",
+      "CalculiX has small_strain and saint_venant_kirchhoff with elements q1, p1 and p2, not {} with {}",
       cases::name_of(fem.formulation), cases::name_of(fem.element));
 }
 
-void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
-  const bool is_nonlinear = scene.definition.fem.formulation == cases::Formulation::saint_venant_kirchhoff;
-  write_model(out, scene);
-  // Newton's method starts with the full load (CalculiX halves it when it must) and goes on until residual
-  // and correction are 1e-8 of what they are measured against: its default, half a per cent, is far above the
-  // digits it prints.
-  if (is_nonlinear)
-    fmt::print(out, "*STEP, NLGEOM, INC=1000\n*CONTROLS, PARAMETERS=FIELD\n1e-8, 1e-8, , , 1e-8, 1e-8\n"
-                    "*STATIC\n1., 1.\n");
-  else
-    fmt::print(out, "*STEP\n*STATIC\n");
-  fmt::print(out, "*CLOAD\n");
-  write_forces(out, scene);
-  fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=100000\nU\n*END STEP\n");
-}
-
 std::vector<CalculixOutput> motion_by_calculix(const cases::Scene& scene) {
-  auto run = run_calculix(scene, write_motion_input);
+  auto run = run_calculix(scene, write_calculix_motion_input);
   if (!run) return {};
   const auto n_steps = static_cast<std::size_t>(scene.definition.dynamics->n_steps());
   if (run->blocks.size() != n_steps)

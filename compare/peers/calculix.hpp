@@ -5,7 +5,8 @@
 #include <ostream>
 
 /// CalculiX, an independent finite-element program, solves a case too. Its fully integrated trilinear
-/// hexahedron C3D8 is our small_strain q1 in a static step, and with NLGEOM our saint_venant_kirchhoff q1.
+/// hexahedron C3D8 is our small_strain q1 in a static step, and with NLGEOM our saint_venant_kirchhoff q1; its
+/// tetrahedra C3D4 and C3D10 are p1 and p2.
 namespace springproof::compare {
 
 /// Why CalculiX cannot solve this case; nothing if it can.
@@ -16,6 +17,10 @@ std::optional<std::string> reason_without_calculix(const cases::Case& definition
 /// 1 there; mm, N, MPa.
 /// @param scene  already refined
 void write_calculix_input(std::ostream& out, const cases::Scene& scene);
+
+/// The same for a motion, with an amplitude for every load: before and after its points it is what it is at
+/// them.
+void write_calculix_motion_input(std::ostream& out, const cases::Scene& scene);
 
 /// Displacements of a CalculiX .dat file (mm), and the part of the load, or the time (s), they belong to.
 struct CalculixOutput {

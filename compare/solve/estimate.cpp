@@ -144,6 +144,7 @@ std::optional<BodySize> size_of(const cases::Case& definition) try {
   if (surface && !cubes) {
     body.outline.mesh.grid.reset();
     body.outline.mesh.shape = cases::CellShape::tetrahedron;
+    cases::settle_element(body.outline.definition, true);
     body.n_cells = std::max(1., cases::count_tetrahedra(*surface));
     body.n_nodes = body.n_cells / cells_a_node + 10;
     return body;
