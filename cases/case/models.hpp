@@ -25,7 +25,7 @@ SPRINGPROOF_ENUMERATION(Doubt,
 struct Fem {
   Formulation formulation = Formulation::log_strain;
   Element element = Element::q1_bbar;
-  bool has_auto_element = false;     ///< named by no case file: the default of the mesh's shape
+  bool has_auto_element = true;      ///< named by no case file: the default of the mesh's shape
   int refine = 0;                    ///< uniform refinements of the body's mesh, FEM side only
   bool has_auto_formulation = false; ///< small_strain where the strains allow it, else the formulation above
   bool has_auto_accuracy = false;    ///< further meshes until the limit is known well enough

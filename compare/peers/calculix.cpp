@@ -238,7 +238,8 @@ cases::Solution solve_with_calculix(const cases::Scene& scene) {
   const CalculixOutput& output = run->blocks.back();
   solution.load_reached = output.load_reached;
   solution.newton_iterations = run->newton_iterations;
-  const std::vector<bool> fixed = cases::constrained_dofs(run->refined);
+  const std::vector<bool> fixed = cases::constrained_dofs(
+      cases::refine(run->refined, cases::facts_of(scene.definition.fem.element).degree - 1));
   solution.unknowns = static_cast<std::size_t>(std::count(fixed.begin(), fixed.end(), false));
   if (!(output.load_reached > 1 - 1e-6)) // its time is printed with seven digits
     throw cases::SolveError("CalculiX stopped: " + run->error, solution);
