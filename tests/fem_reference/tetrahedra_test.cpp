@@ -37,20 +37,23 @@ cases::Case block(const Vector3d& size, const std::array<int, 3>& cells, std::ve
 
 std::vector<Body> bodies_of_both_shapes() {
   const cases::Load torque{{"z+"}, cases::loads::Torque{0.6, Vector3d::UnitZ(), {5, 5, 20}}};
+  Body pressed{"pressed plate", block({40, 40, 10}, {4, 4, 1}, {}), {40, 40, 10}};
+  pressed.definition.loads = {scenes::traction("z+", {0, 0, -0.03})};
   const cases::Load weight{{}, cases::loads::Gravity{{0, 0, -9.81}}};
   return {
       {"sheared cube", block({10, 10, 10}, {2, 2, 2}, {scenes::traction("z+", {0.01, 0, 0})}), {10, 10, 10}},
       {"cantilever", block({10, 10, 40}, {2, 2, 8}, {scenes::traction("z+", {0.0005, 0, 0})}), {10, 10, 40}},
       {"twisted bar", block({10, 10, 20}, {2, 2, 4}, {torque}), {10, 10, 20}},
-      {"heavy block", block({20, 20, 20}, {2, 2, 2}, {weight}), {20, 20, 20}}};
+      {"heavy block", block({20, 20, 20}, {2, 2, 2}, {weight}), {20, 20, 20}},
+      pressed};
 }
 
 struct LimitAndBar {
-  Vector3d limit;
+  Vector3d limit; ///< mm
   double bar; ///< the change that the last refinement made, mm
 };
 
-/// Displacement of the watched corner with the mesh halved once and twice, extrapolated.
+/// The displacement of the watched corner on a mesh that is halved twice.
 LimitAndBar limit_of(Body body, Element element) {
   std::vector<Vector3d> values;
   body.definition.fem.element = element;
