@@ -64,7 +64,8 @@ void add_new_command(CLI::App& program, Action& chosen) {
   const auto [command, options] = add_command<NewOptions>(
       program, chosen, "new", "write a commented case file to start from", write_new_case);
   command->add_option("name", options->name, "of the case; the file is NAME.toml")->required();
-  command->add_option("--template", options->template_name, "box | layers | mesh | organ | voxels")
+  command
+      ->add_option("--template", options->template_name, "box | layers | mesh | organ | tetrahedra | voxels")
       ->capture_default_str();
 }
 

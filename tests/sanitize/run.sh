@@ -62,7 +62,7 @@ program)
   ends 0 run --json --msm-displacements out_run/cube-shear-small.vtu "$small"
   ends 0 run --json --interpolate --msm-displacements out_run/cube-shear-small.vtu "$small"
   ends 0 export "$small" --to csv --out out_export
-  for template in box layers mesh organ voxels; do
+  for template in box layers mesh organ tetrahedra voxels; do
     ends 0 new of_$template --template $template
     ends 0 run of_$template.toml --set fem.accuracy='"none"'
   done

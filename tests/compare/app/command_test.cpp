@@ -342,7 +342,7 @@ TEST_CASE("a hard case that does not exist is refused with the nearest name, and
 TEST_CASE("every template gives a case that runs, and nothing is ever overwritten", "[long]") {
   const TemporaryFolder folder;
   const std::string in_folder = "cd " + folder.path.string() + " && ";
-  for (const char* name : {"box", "layers", "mesh", "organ", "voxels"}) {
+  for (const char* name : {"box", "layers", "mesh", "organ", "tetrahedra", "voxels"}) {
     CAPTURE(name);
     const std::string new_case = std::string("new my-") + name + " --template " + name;
     printed_by(new_case, in_folder);
