@@ -147,10 +147,9 @@ void check_design(const cases::Scene& scene) {
   const cases::Msm& options = scene.definition.msm;
   if (!is_fitted(options.design) && !is_published(options.design) && options.design != D::uniform)
     throw cases::InputError(
-        options.where, fmt::format("design = \"{}\" is for hexahedra. On tetrahedra it must be \"hybrid\" | "
-                                   "\"matched\" | \"midline\" (which is matched there) | \"uniform\" | "
-                                   "\"van_gelder\" | \"lloyd\" | \"biquadratic\" | \"network\"",
-                                   cases::name_of(options.design)));
+        options.where, "design: on tetrahedra it must be \"hybrid\" | \"matched\" | \"midline\" (which is "
+                       "matched there) | \"uniform\" | \"van_gelder\" | \"lloyd\" | \"biquadratic\" | "
+                       "\"network\"; the others are for hexahedra");
   if (options.design == D::uniform && options.uniform_stiffness) return;
   const auto materials = cases::materials_of(scene.definition);
   if (!std::all_of(materials.begin(), materials.end(), cases::is_isotropic))

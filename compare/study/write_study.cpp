@@ -263,18 +263,35 @@ void write_verdict_text(std::ostream& out, const Comparison& comparison,
   write_next_commands(out, next);
 }
 
+namespace {
+
+/// Why designs have no error, those with one reason together.
+void write_reasons(std::ostream& out, const std::vector<Trial>& designs) {
+  std::vector<std::pair<std::string, std::string>> names; // of each reason
+  for (const Trial& trial : designs) {
+    if (trial.worst) continue;
+    const std::string reason =
+        trial.refusal.empty() ? "failed: " + trial.failure : "refused: " + trial.refusal;
+    const auto same =
+        std::find_if(names.begin(), names.end(), [&](const auto& known) { return known.first == reason; });
+    if (same == names.end())
+      names.emplace_back(reason, trial.name);
+    else
+      same->second += ", " + trial.name;
+  }
+  for (const auto& [reason, of_designs] : names)
+    write_wrapped(out, fmt::format("    {} {}", of_designs, reason), 6);
+}
+
+} // namespace
+
 void write_ranking_text(std::ostream& out, const Ranking& ranking) {
   write_wrapped(
       out,
       fmt::format("{}: designs by their worst error against {}", ranking.case_name, reference_text(ranking)),
       2);
   if (ranking.fem.converged()) write_designs_table(out, ranking);
-  for (const Trial& ranked : ranking.designs)
-    if (!ranked.worst)
-      write_wrapped(out,
-                    fmt::format("    {} {}: {}", ranked.name, ranked.refusal.empty() ? "failed" : "refused",
-                                ranked.refusal.empty() ? ranked.failure : ranked.refusal),
-                    6);
+  write_reasons(out, ranking.designs);
   if (ranking.recommended())
     write_wrapped(out, "  >: recommended; moduli: whether the lattice has those of the material", 4);
   write_expectations_text(out, ranking.gates);

@@ -159,7 +159,7 @@ TEST_CASE("springs on tetrahedra take the designs that edges can have, and refus
   }
   for (const D one : {D::linear_method, D::moduli, D::multi_load, D::ladd_kinney, D::baudet})
     CHECK_THROWS_WITH(compare::design_for(compare::with_design(scene, one)),
-                      Catch::Contains("is for hexahedra") && Catch::Contains("\"biquadratic\""));
+                      Catch::Contains("the others are for hexahedra") && Catch::Contains("\"biquadratic\""));
 }
 
 // The energies, the reactions and the stress of volume terms at nodes come from their nodes' patches.

@@ -63,6 +63,16 @@ TEST_CASE("designs come by their worst error, then those that failed, then those
                              Catch::Contains("refused refused: not for this material"));
 }
 
+TEST_CASE("designs that are refused for one reason share its line") {
+  Trial first{"first"}, second{"second"}, other{"other"};
+  first.refusal = second.refusal = "not on this mesh";
+  other.refusal = "not for this material";
+  std::ostringstream text;
+  compare::write_ranking_text(text, ranking_of({first, other, second, with_error("best", 3, true)}));
+  CHECK_THAT(text.str(), Catch::Contains("    first, second refused: not on this mesh\n") &&
+                             Catch::Contains("    other refused: not for this material\n"));
+}
+
 TEST_CASE("a ranking's text ends with its advice, in lines of 100 columns, whatever the reasons say") {
   Trial refused{"refused"};
   for (int n = 0; n < 40; ++n) refused.refusal += "reason " + std::to_string(n) + " ";
