@@ -32,7 +32,7 @@ struct ElementsInState {
   ElementType type;
   std::vector<Eigen::Vector3d> nodes;                           ///< an element's, in its reference cell
   std::function<Eigen::MatrixXd(const CellGeometry&)> products; ///< integrals of N_a N_b, mm³
-  cases::Range cells;                 ///< contains the body's cells of all elements here
+  cases::Range cells; ///< contains the body's cells of all elements here
   /// Calls action(element). Of the ranks that share a state, one has each element.
   std::function<void(const std::function<void(const ElementState&)>& action)> for_each;
 };

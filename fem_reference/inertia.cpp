@@ -12,15 +12,14 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 /// Returns a function of a cell, its tangent at rest; degree of freedom i*n_nodes + a is component i of node
 /// a.
 auto rest_stiffness_of_cells(const Discretisation& d, const std::vector<Formulation>& formulations) {
-  return
-      [&d, kernels = kernels_of(formulations, d.element),
-       displacement = std::vector<double>(3 * index(d.nodes.per_cell)),
-       internal = std::vector<double>(index(d.element.n_internal()))](int cell) -> const RowMajorMatrix& {
-        const auto& material = d.material_of_cell;
-        return kernels[material.empty() ? 0 : index(material[index(cell)])]
-            ->evaluate(d.geometry.of(cell), displacement.data(), internal.data(), Wanted::stress_and_tangent)
-            .tangent;
-      };
+  return [&d, kernels = kernels_of(formulations, d.element),
+          displacement = std::vector<double>(3 * index(d.nodes.per_cell)),
+          internal = std::vector<double>(index(d.element.n_internal()))](int cell) -> const RowMajorMatrix& {
+    const auto& material = d.material_of_cell;
+    return kernels[material.empty() ? 0 : index(material[index(cell)])]
+        ->evaluate(d.geometry.of(cell), displacement.data(), internal.data(), Wanted::stress_and_tangent)
+        .tangent;
+  };
 }
 
 /// Adds a factor times a cell's tangent at rest.

@@ -35,9 +35,9 @@ SPRINGPROOF_ENUMERATION(Fill, tetrahedra, cubes)
 /// A body whose closed surface (STL, OBJ, PLY, VTP) is filled with tetrahedra, or with cubes as Voxels.
 struct FilledSurface {
   NamedFile file;
-  double size;             ///< mm, > 0: the tetrahedra's edges, about; the cubes' edges
+  double size; ///< mm, > 0: the tetrahedra's edges, about; the cubes' edges
   Fill fill = Fill::cubes;
-  double scale = 1;        ///< mm of a unit of the file
+  double scale = 1; ///< mm of a unit of the file
 };
 SPRINGPROOF_FIELDS(FilledSurface, file, size, fill, scale)
 

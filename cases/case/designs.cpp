@@ -154,6 +154,12 @@ bool have_other_exponents(const std::vector<Material>& materials) {
 
 } // namespace
 
+void settle_design(Msm& msm, bool is_tetrahedron) {
+  if (!is_tetrahedron || !msm.has_auto_design) return;
+  msm.design = Design::hybrid;
+  msm.law.reset();
+}
+
 SpringLaw law_of(const Msm& msm, const Material& material) {
   const DesignLaw law = facts_of(msm.design).law;
   const bool finds_exponents =

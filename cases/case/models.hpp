@@ -66,6 +66,8 @@ SPRINGPROOF_FIELDS(RelaxationCounts, load_steps, per_step, further)
 
 struct Msm {
   Design design = Design::linear_method;
+  /// Neither the design nor what belongs to one is named: tetrahedra have a default of their own.
+  bool has_auto_design = false;
   Solver solver = Solver::newton;
   std::optional<double> poissons_ratio; ///< design from another nu than the material's
   std::optional<double> split; ///< t of the moduli, hybrid, matched, midline and multi_load designs, 0 to 1
@@ -89,9 +91,13 @@ struct Msm {
   Where where;
   std::optional<RelaxationCounts> relaxation{}; ///< force_scaling; absent: it runs until equilibrium
 };
-SPRINGPROOF_FIELDS(Msm, design, solver, poissons_ratio, split, beta, stiffness, axis_stiffness,
-                   uniform_stiffness, volume_stiffness, network, law, exponent, paths, weights, strain_range,
-                   has_volume_term, accepted, mass, iterations_per_step, where, relaxation)
+SPRINGPROOF_FIELDS(Msm, design, has_auto_design, solver, poissons_ratio, split, beta, stiffness,
+                   axis_stiffness, uniform_stiffness, volume_stiffness, network, law, exponent, paths,
+                   weights, strain_range, has_volume_term, accepted, mass, iterations_per_step, where,
+                   relaxation)
+
+/// Gives a case that names no design the default of tetrahedra, hybrid, where its cells are such.
+void settle_design(Msm& msm, bool is_tetrahedron);
 
 /// The law of the springs: the case's, or the design's own: power-log springs where it finds their exponents.
 /// The midline's are Hooke's in a material with a fibre and below nu = 0.25, where the volume term is

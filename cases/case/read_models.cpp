@@ -279,6 +279,8 @@ Msm read_msm(Table& table, const Case& definition) {
   }
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
+  msm.has_auto_design =
+      !design && !msm.beta && !table.has("law") && !table.has("exponent") && !table.has("strain_range");
   read_law(table, msm, definition);
   read_fit(table, msm);
   table.refuse_unless(definition.dynamics || definition.material_dynamics.density, {"mass"}, has_no_mass);

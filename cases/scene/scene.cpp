@@ -285,7 +285,9 @@ Scene make_scene(const Case& case_as_read) {
   scene.definition = case_as_read;
   const Case& definition = scene.definition;
   scene.mesh = cut(make_mesh(definition.body, scene.remarks), definition.removed);
-  settle_element(scene.definition, scene.mesh.shape == CellShape::tetrahedron);
+  const bool is_tetrahedron = scene.mesh.shape == CellShape::tetrahedron;
+  settle_element(scene.definition, is_tetrahedron);
+  settle_design(scene.definition.msm, is_tetrahedron);
   find_nearest_nodes(scene.mesh, scene.definition, scene.remarks);
   resolve_materials(scene);
   add_patches(scene);

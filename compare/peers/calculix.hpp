@@ -5,8 +5,8 @@
 #include <ostream>
 
 /// CalculiX, an independent finite-element program, solves a case too. Its fully integrated trilinear
-/// hexahedron C3D8 is our small_strain q1 in a static step, and with NLGEOM our saint_venant_kirchhoff q1; its
-/// tetrahedra C3D4 and C3D10 are p1 and p2.
+/// hexahedron C3D8 is our small_strain q1 in a static step, and with NLGEOM our saint_venant_kirchhoff q1;
+/// its tetrahedra C3D4 and C3D10 are p1 and p2.
 namespace springproof::compare {
 
 /// Why CalculiX cannot solve this case; nothing if it can.

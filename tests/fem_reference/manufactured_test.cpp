@@ -71,9 +71,8 @@ void converges(const typename Law::Material& material, cases::Formulation formul
   }
 }
 
-const std::vector<Element> every_element{Element::q1,        Element::q1_bbar, Element::q1_p0,
-                                         Element::q1_wilson, Element::q2,      Element::q2_p1,
-                                         Element::p1,        Element::p2};
+const std::vector<Element> every_element{Element::q1, Element::q1_bbar, Element::q1_p0, Element::q1_wilson,
+                                         Element::q2, Element::q2_p1,   Element::p1,    Element::p2};
 
 } // namespace
 

@@ -44,7 +44,9 @@ TEST_CASE("quadratic cells hold a quadratic displacement exactly, however they a
         1e-12); // rounding error of the solve; the field is of the order 1e-2 mm
 }
 
-TEST_CASE("an unsupported cell of rest shape has six motions without force, with p2_p0 three inversions, and no more", "[verification]") {
+TEST_CASE("an unsupported cell of rest shape has six motions without force, with p2_p0 three inversions, and "
+          "no more",
+          "[verification]") {
   const Element element =
       GENERATE(from_range(std::begin(scenes::all_elements), std::end(scenes::all_elements)));
   const auto scene = scenes::distorted_box(1, scenes::Surface::free, scenes::thesis_elastic(),

@@ -50,7 +50,7 @@ std::vector<Body> bodies_of_both_shapes() {
 
 struct LimitAndBar {
   Vector3d limit; ///< mm
-  double bar; ///< the change that the last refinement made, mm
+  double bar;     ///< the change that the last refinement made, mm
 };
 
 /// The displacement of the watched corner on a mesh that is halved twice.

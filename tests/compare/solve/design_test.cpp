@@ -157,6 +157,12 @@ TEST_CASE("springs on tetrahedra take the designs that edges can have, and refus
     const bool is_at_nodes = one == D::hybrid || one == D::matched || one == D::midline;
     CHECK(msm::has_volume_patches(design.springs) == is_at_nodes);
   }
+  for (const bool is_auto : {false, true}) {
+    cases::Msm options = compare::with_design(scene, D::midline).definition.msm;
+    options.has_auto_design = is_auto;
+    cases::settle_design(options, true);
+    CHECK(options.design == (is_auto ? D::hybrid : D::midline));
+  }
   for (const D one : {D::linear_method, D::moduli, D::multi_load, D::ladd_kinney, D::baudet})
     CHECK_THROWS_WITH(compare::design_for(compare::with_design(scene, one)),
                       Catch::Contains("the others are for hexahedra") && Catch::Contains("\"biquadratic\""));
