@@ -37,6 +37,9 @@ constexpr Linear grid_bubble_element{5, 950, 20e-6};
 constexpr Linear grid_quadratic_element{5, 1250, 25e-6};
 constexpr Linear grid_springs{5, 320, 5.5e-6};
 constexpr Linear algebraic_multigrid{25, 4000, 115e-6};
+/// A beam of 52,653 p2 cells, 230,121 unknowns, and 20^3 q2 cells with a fibre, 201,720.
+constexpr Linear multigrid_of_quadratic_tetrahedra{25, 5400, 165e-6};
+constexpr Linear multigrid_of_quadratic_hexahedra{25, 8200, 215e-6};
 constexpr Factorised finite_elements{25, 650, 6.5};
 constexpr Factorised springs_lattice{5, 245, 3};
 constexpr double factorised_unknowns = 26460;
@@ -55,6 +58,12 @@ constexpr double small_strain_factorised = 0.2, small_strain_iterated = 0.6;
 const Linear& on_grid(cases::Element element) {
   if (element == cases::Element::q1_wilson) return grid_bubble_element;
   return element == cases::Element::q2 ? grid_quadratic_element : grid_linear_element;
+}
+
+const Linear& assembled(cases::Element element) {
+  const cases::ElementFacts& facts = cases::facts_of(element);
+  if (facts.degree == 1) return algebraic_multigrid;
+  return facts.is_tetrahedron ? multigrid_of_quadratic_tetrahedra : multigrid_of_quadratic_hexahedra;
 }
 
 Estimate linear(const std::string& model, double unknowns, double n_entries, const Linear& per) {
@@ -183,7 +192,7 @@ Estimate estimate_fem(const BodySize& body) {
   else if (is_factorised)
     estimate = factorised("finite elements (factorised)", unknowns, finite_elements);
   else
-    estimate = linear("finite elements (assembled)", unknowns, n_entries, algebraic_multigrid);
+    estimate = linear("finite elements (assembled)", unknowns, n_entries, assembled(fem.element));
   if (body.outline.definition.dynamics)
     estimate.megabytes += 1e-6 * n_entries *
                           (!is_on_grid                                ? assembled_in_motion
