@@ -1,9 +1,12 @@
 #include "cases/case/names.hpp"
+#include "cases/case/read_case.hpp"
 #include "compare/app/commands.hpp"
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
+#include "compare/solve/estimate.hpp"
+#include "compare/study/on_mesh.hpp"
 #include "compare/table/json.hpp"
 #include "msm/design/uniaxial.hpp"
 
@@ -16,6 +19,8 @@ namespace {
 
 struct CommandOptions {
   DesignOptions design;
+  std::string body;                 ///< a case file; empty: stiffnesses of a cell
+  std::vector<std::string> designs; ///< designs of its springs; empty: its own
   bool compare = false, pareto = false, measure = false, json = false;
   std::string out;
   bool has_many() const { return compare || pareto; }
@@ -81,7 +86,35 @@ bool has_answer(const CommandOptions& options, const std::vector<DesignAttempt>&
   });
 }
 
+/// What springs can do on a case's own mesh.
+int run_on_mesh(const CommandOptions& options) {
+  const cases::Scene scene =
+      make_scene_within_memory(cases::read_case(options.body, options.design.settings));
+  if (is_matrix_made(scene.mesh))
+    check_memory(options.body, {estimate_free_springs(size_of(scene))}, memory_limit());
+  claim_folder(options.out);
+  if (mpi_rank() != 0) return 0;
+  const SpringsOnMesh study = study_on_mesh(
+      scene, options.designs.empty() ? std::vector<cases::Design>()
+                                     : designs_of(options.designs, scene.definition));
+  Json document{{"schema", 1}};
+  if (!options.design.settings.empty()) document["settings"] = options.design.settings;
+  document.update(on_mesh_to_json(study));
+  if (options.json)
+    std::cout << json_text(document);
+  else
+    write_on_mesh_text(std::cout, study);
+  if (!options.out.empty())
+    write_file(options.out + "/design.json", [&](std::ostream& out) { out << json_text(document); });
+  // A design that is refused among others is a row with its reason.
+  return std::any_of(study.designs.begin(), study.designs.end(),
+                     [](const DesignOnMesh& design) { return design.refusal.empty(); })
+             ? 0
+             : 1;
+}
+
 int run(const CommandOptions& options) {
+  if (!options.body.empty()) return run_on_mesh(options);
   const msm::DesignRequest request = request_from(options.design);
   claim_folder(options.out);
   std::vector<DesignAttempt> attempts = options.pareto    ? attempt_springs(request)
@@ -109,7 +142,9 @@ int run(const CommandOptions& options) {
 
 void add_design_command(CLI::App& program, Action& chosen) {
   const auto [command, options] = add_command<CommandOptions>(
-      program, chosen, "design", "stiffnesses of a cell for a material, and the lattice's moduli", run);
+      program, chosen, "design", "stiffnesses of a cell for a material, and the lattice's moduli; of a "
+                                  "case, what its springs can do on its own mesh",
+      run);
   add_design_options(*command, options->design);
   command->add_flag("--compare", options->compare, "every method side by side");
   command->add_flag("--pareto", options->pareto, "springs alone: accuracy against stability (with --measure)")
@@ -117,6 +152,13 @@ void add_design_command(CLI::App& program, Action& chosen) {
   command->add_flag("--measure", options->measure,
                     "the errors of the thesis's cube with these designs (solves both models)");
   command->add_option("--out", options->out, "folder for design.json and the method's figures");
+  CLI::Option* body = command->add_option("case", options->body,
+                                          "case file (TOML): what springs can do on its mesh, before a solve");
+  for (CLI::Option* option : command->get_options()) // which are of a single cell
+    if (option != body && option != command->get_help_ptr() &&
+        !option->check_lname("set") && !option->check_lname("out"))
+      body->excludes(option);
+  add_designs_option(*command, options->designs, "springs of these designs (a,b,c or all)")->needs(body);
   add_json_option(*command, options->json);
 }
 

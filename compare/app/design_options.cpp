@@ -137,9 +137,8 @@ msm::DesignRequest from_case(const DesignOptions& o, cases::Element element) {
   const cases::Scene scene = make_scene_within_memory(cases::read_case(o.case_file, o.settings));
   if (scene.mesh.shape == cases::CellShape::tetrahedron)
     throw cases::InputError(o.case_file +
-                            ": a design is of one hexahedral cell, and the springs of tetrahedra "
-                            "are fitted to the whole mesh: springproof run CASE "
-                            "tells what they can do");
+                            ": --case designs one hexahedral cell, and the springs of tetrahedra "
+                            "are fitted to the whole mesh: springproof design CASE tells what they can do");
   return design_request(scene.definition.material, cases::cell_vertices(scene.mesh, 0), scene.definition.msm,
                         element);
 }

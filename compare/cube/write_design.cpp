@@ -2,6 +2,7 @@
 
 #include "cases/case/readers.hpp"
 #include "compare/provenance/print.hpp"
+#include "compare/study/on_mesh.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/gnuplot.hpp"
 #include "compare/write/write.hpp"
@@ -111,17 +112,8 @@ void write_fibre_lattice(std::ostream& out, const msm::NearestModuli& lattice) {
   fmt::print(out, "  misfit           the energies of strains err by up to {:.3g} %\n", 100 * lattice.misfit);
 }
 
-Json moduli_to_json(const msm::DesignResult& design) {
-  if (!design.by_fibre) {
-    const msm::LatticeModuli& m = design.moduli;
-    return {{"C11", m.c11},
-            {"C12", m.c12},
-            {"C44", m.c44},
-            {"zener", m.zener},
-            {"youngs_modulus", m.youngs_modulus},
-            {"poissons_ratio", m.poissons_ratio},
-            {"shear_modulus", m.shear_modulus}};
-  }
+Json design_moduli_to_json(const msm::DesignResult& design) {
+  if (!design.by_fibre) return moduli_to_json(design.moduli);
   const mechanics::TransverseModuli& c = design.by_fibre->moduli;
   const cases::TransverselyIsotropic m = mechanics::engineering_constants(c);
   return {{"C11", c.c11},
@@ -288,7 +280,7 @@ Json attempt_to_json(const DesignAttempt& attempt) {
                 {"what", facts.what},
                 {"published_in", facts.published_in},
                 {"residual", design.residual},
-                {"moduli", moduli_to_json(design)},
+                {"moduli", design_moduli_to_json(design)},
                 {"warnings", design.warnings},
                 {"stability", nullptr}};
   document.update(springs_to_json(design));

@@ -7,6 +7,7 @@
 #include "msm/design/by_shape.hpp"
 #include "msm/design/midline.hpp"
 #include "msm/design/multi_load.hpp"
+#include "msm/design/patch.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -64,24 +65,7 @@ msm::Elasticity elasticity_of(const cases::Scene& scene, const std::vector<msm::
     if (cases::material_of(scene, c) != material) continue;
     const cases::CellCorners corners = cases::cell_corners(scene.mesh, c);
     const double volume = cases::cell_volume(corners);
-    const auto add = [&](const Eigen::Vector3d& d, double stiffness) {
-      Eigen::Matrix<double, 6, 1> m;
-      m << d.cwiseProduct(d), d.y() * d.z(), d.x() * d.z(), d.x() * d.y();
-      sum += stiffness / d.squaredNorm() * m * m.transpose();
-    };
-    for (const msm::CellSpring& spring : cells[c].springs)
-      add(corners[index(spring.vertices[1])] - corners[index(spring.vertices[0])], spring.stiffness);
-    for (const msm::CellMidline& line : cells[c].midlines) {
-      Eigen::Vector3d between = Eigen::Vector3d::Zero();
-      for (std::size_t v = 0; v < 8; ++v) between += ((v >> line.axis & 1U) != 0 ? 0.25 : -0.25) * corners[v];
-      add(between, line.stiffness);
-    }
-    sum.topLeftCorner<3, 3>().array() += cells[c].volume * volume;
-    for (const msm::CellTetrahedron& tetrahedron : cells[c].tetrahedra) {
-      sum.topLeftCorner<3, 3>().array() += tetrahedron.lambda * volume;
-      sum.diagonal().head<3>().array() += 2 * tetrahedron.mu * volume;
-      sum.diagonal().tail<3>().array() += tetrahedron.mu * volume;
-    }
+    sum += volume * msm::cell_elasticity(cells[c], corners);
     all += volume;
   }
   return sum / all;

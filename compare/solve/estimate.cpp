@@ -216,11 +216,17 @@ Estimate estimate_springs(const BodySize& body) {
   return in_time(estimate, definition);
 }
 
+Estimate estimate_free_springs(const BodySize& body) {
+  Estimate springs = factorised("springs (factorised)", 3 * body.n_nodes, springs_lattice);
+  springs.is_on_first_rank = true;
+  return springs;
+}
+
 std::vector<Estimate> estimate_vibrations(const BodySize& body) {
   const int halvings = fem_reference::n_halvings(body.outline.definition.fem);
   std::vector<Estimate> models{
       factorised("finite elements (factorised)", 3 * refined_nodes(body, halvings), finite_elements),
-      factorised("springs (factorised)", 3 * body.n_nodes, springs_lattice)};
+      estimate_free_springs(body)};
   for (Estimate& model : models) model.is_on_first_rank = true;
   return models;
 }

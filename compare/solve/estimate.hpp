@@ -29,6 +29,8 @@ std::optional<BodySize> size_of(const cases::Case& definition);
 /// Estimate of the finite elements, refined as [fem] says.
 Estimate estimate_fem(const BodySize& body);
 Estimate estimate_springs(const BodySize& body);
+/// Estimate of what springs without supports do at rest, whose matrix is factorised.
+Estimate estimate_free_springs(const BodySize& body);
 /// Estimates of both models' lowest vibrations, whose matrices are factorised.
 std::vector<Estimate> estimate_vibrations(const BodySize& body);
 /// The models that a question asks for; of finite elements on several meshes, one for each.

@@ -32,7 +32,7 @@ DOCUMENTS = {
         [STATIC, *SMALL, "--only", "msm", "--set", "msm={design='matched'}"],
     ],
     "gate": [[GATED]],
-    "design": [["--young", "0.3", "--poisson", "0.3", "--method", "biquadratic"], ["--young", "0.3", "--poisson", "0.3", "--method", "matched"]],
+    "design": [["--young", "0.3", "--poisson", "0.3", "--method", "biquadratic"], ["--young", "0.3", "--poisson", "0.3", "--method", "matched"], [BLOCK, "--designs", "hybrid,biquadratic"]],
     "eigen": [[MOVING, "--modes", "2"], ["--poisson", "0.35", "--body", "2"]],
     "tables": [["4.1"]],
 }

@@ -81,7 +81,12 @@ TEST_CASE(
          "youngs_modulus = 0.3\npoissons_ratio = 0.3\n[[fixed]]\nregion = \"left\"\n[[load]]\n"
          "kind = \"traction\"\nregion = \"right\"\nvalue = [0.001, 0, 0]\n[[measure]]\n"
          "name = \"volume\"\nkind = \"volume\"\n";
-  check_refused("design --case " + file, "fitted to the whole mesh");
+  check_refused("design --case " + file, "springproof design CASE");
+  const auto on_mesh = document_of("design --designs all --json " + file)["designs"];
+  CHECK(std::count_if(on_mesh.begin(), on_mesh.end(),
+                      [](const auto& design) { return !design.contains("refused"); }) == 7);
+  CHECK_THAT(printed_by("design " + file), Catch::Contains("48 tetrahedra, 23 nodes"));
+  check_refused("design --young 0.3 " + file, "--young excludes case");
   check_refused("run --set fem.element=\"q1\" " + file, "must be \"p2\" | \"p1\" | \"p2_p0\"");
   CHECK_THAT(printed_by("eigen --set material.density=1000 " + file), !Catch::Contains("nan"));
   CHECK_THAT(printed_by("run " + file), !Catch::Contains("nan"));
