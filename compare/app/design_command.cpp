@@ -94,9 +94,9 @@ int run_on_mesh(const CommandOptions& options) {
     check_memory(options.body, {estimate_free_springs(size_of(scene))}, memory_limit());
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
-  const SpringsOnMesh study = study_on_mesh(
-      scene, options.designs.empty() ? std::vector<cases::Design>()
-                                     : designs_of(options.designs, scene.definition));
+  const SpringsOnMesh study =
+      study_on_mesh(scene, options.designs.empty() ? std::vector<cases::Design>()
+                                                   : designs_of(options.designs, scene.definition));
   Json document{{"schema", 1}};
   if (!options.design.settings.empty()) document["settings"] = options.design.settings;
   document.update(on_mesh_to_json(study));
@@ -141,10 +141,11 @@ int run(const CommandOptions& options) {
 } // namespace
 
 void add_design_command(CLI::App& program, Action& chosen) {
-  const auto [command, options] = add_command<CommandOptions>(
-      program, chosen, "design", "stiffnesses of a cell for a material, and the lattice's moduli; of a "
+  const auto [command, options] =
+      add_command<CommandOptions>(program, chosen, "design",
+                                  "stiffnesses of a cell for a material, and the lattice's moduli; of a "
                                   "case, what its springs can do on its own mesh",
-      run);
+                                  run);
   add_design_options(*command, options->design);
   command->add_flag("--compare", options->compare, "every method side by side");
   command->add_flag("--pareto", options->pareto, "springs alone: accuracy against stability (with --measure)")
@@ -152,11 +153,11 @@ void add_design_command(CLI::App& program, Action& chosen) {
   command->add_flag("--measure", options->measure,
                     "the errors of the thesis's cube with these designs (solves both models)");
   command->add_option("--out", options->out, "folder for design.json and the method's figures");
-  CLI::Option* body = command->add_option("case", options->body,
-                                          "case file (TOML): what springs can do on its mesh, before a solve");
+  CLI::Option* body = command->add_option(
+      "case", options->body, "case file (TOML): what springs can do on its mesh, before a solve");
   for (CLI::Option* option : command->get_options()) // which are of a single cell
-    if (option != body && option != command->get_help_ptr() &&
-        !option->check_lname("set") && !option->check_lname("out"))
+    if (option != body && option != command->get_help_ptr() && !option->check_lname("set") &&
+        !option->check_lname("out"))
       body->excludes(option);
   add_designs_option(*command, options->designs, "springs of these designs (a,b,c or all)")->needs(body);
   add_json_option(*command, options->json);

@@ -85,6 +85,12 @@ TEST_CASE(
   const auto on_mesh = document_of("design --designs all --json " + file)["designs"];
   CHECK(std::count_if(on_mesh.begin(), on_mesh.end(),
                       [](const auto& design) { return !design.contains("refused"); }) == 7);
+  const auto ranked = document_of("run --designs all --json " + file)["cases"][0]["designs"];
+  REQUIRE(ranked.size() == on_mesh.size());
+  for (const auto& design : ranked)
+    CHECK(design["worst_error_percent"].is_number() == design["refused"].is_null()); // the same seven
+  CHECK(std::count_if(ranked.begin(), ranked.end(),
+                      [](const auto& design) { return design["refused"].is_null(); }) == 7);
   CHECK_THAT(printed_by("design " + file), Catch::Contains("48 tetrahedra, 23 nodes"));
   check_refused("design --young 0.3 " + file, "--young excludes case");
   check_refused("run --set fem.element=\"q1\" " + file, "must be \"p2\" | \"p1\" | \"p2_p0\"");
