@@ -178,7 +178,7 @@ void for_each_region(AnyMeasure& measure, const Action& action) {
 }
 
 /// Where an expectation's interval comes from; reports count the kinds separately.
-SPRINGPROOF_ENUMERATION(ReferenceKind, exact, converged, peer, published, regression)
+SPRINGPROOF_ENUMERATION(ReferenceKind, exact, converged, peer, published, requirement, regression)
 SPRINGPROOF_ENUMERATION(Quantity, error_percent, msm, fem)
 
 struct Expectation {

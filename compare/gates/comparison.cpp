@@ -59,6 +59,11 @@ bool needs_limit(const cases::Expectation& expected) {
   return expected.reference == cases::ReferenceKind::converged;
 }
 
+/// Whether an interval has to hold for all that the value may be, where a limit is known.
+bool holds_for_all(const cases::Expectation& expected) {
+  return needs_limit(expected) || expected.reference == cases::ReferenceKind::requirement;
+}
+
 std::optional<double> value_of(const cases::Expectation& expected, const MeasuredValue& measured) {
   switch (expected.quantity) {
   case Quantity::error_percent:
@@ -160,7 +165,7 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
       gate.uncertain = measured->error_uncertainty_percent && expected.quantity == Quantity::error_percent
                            ? "reference and interpolation"
                            : "interpolation";
-    const bool is_of_limit = needs_limit(expected) && expected.quantity != Quantity::msm;
+    const bool is_of_limit = holds_for_all(expected) && expected.quantity != Quantity::msm;
     if (needs_limit(expected) && gate.value && !measured->fem_limit)
       miss_without_limit(gate, answers, studied);
     else if ((is_of_limit || is_interpolated) && gate.value && gate.uncertainty)

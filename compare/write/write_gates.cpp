@@ -42,7 +42,7 @@ std::string describe_uncertainty(const Gate& gate) {
 
 void write_line(std::ostream& out, bool met, const std::string& kind, const std::string& name,
                 const std::string& what) {
-  print(out, "{} {:<10} {}: {}\n", met ? "met   " : "FAILED", kind, name, what);
+  print(out, "{} {:<11} {}: {}\n", met ? "met   " : "FAILED", kind, name, what);
 }
 
 std::string in_xml(const std::string& text) {

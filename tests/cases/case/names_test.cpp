@@ -46,7 +46,7 @@ TEST_CASE("every enumerator has one name, and the name leads back to it") {
   check_names<Axis>(3);
   check_names<Component>(4);
   check_names<TensorComponent>(10);
-  check_names<ReferenceKind>(5);
+  check_names<ReferenceKind>(6);
   check_names<Quantity>(3);
   check_names<Status>(3);
   check_names<Outcome>(6);

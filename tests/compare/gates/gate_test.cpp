@@ -104,6 +104,18 @@ TEST_CASE(
   CHECK(judged_in(Quantity::msm, 9, 9).met()); // needs no reference
 }
 
+TEST_CASE("a requirement holds for all that a limit leaves open, and needs none") {
+  const auto required = [](double lower) {
+    return comparison({expectation(Quantity::error_percent, {lower, -8}, ReferenceKind::requirement)});
+  };
+  const auto of_limit = [&](double lower) { // -10 +- 1.8 %
+    return judged::judge(judged::with_limit(required(lower), 2)).gates[0];
+  };
+  CHECK(of_limit(-12).met());
+  CHECK(of_limit(-11).is_undecided);
+  CHECK(judged::judge(required(-11)).gates[0].met()); // against the same mesh
+}
+
 TEST_CASE("a gate on results that were interpolated holds for what that may add") {
   const auto judged_in = [](Quantity quantity, double lower, double upper) {
     auto result = comparison({expectation(quantity, {lower, upper})});
