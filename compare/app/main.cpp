@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
   for (const auto add : {compare::add_run_command, compare::add_gate_command, compare::add_interact_command,
                          compare::add_new_command, compare::add_design_command, compare::add_eigen_command,
                          compare::add_stress_command, compare::add_sweep_command, compare::add_tables_command,
-                         compare::add_merge_command, compare::add_export_command,
+                         compare::add_merge_command, compare::add_export_command, compare::add_judge_command,
                          compare::add_describe_command, compare::add_worker_command})
     add(program, chosen);
   for (CLI::App* command : program.get_subcommands(nullptr))

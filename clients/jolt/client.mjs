@@ -1,0 +1,126 @@
+// Jolt's soft bodies as a client of springproof: see README.md beside this file.
+import { parseArgs } from "node:util";
+import init from "jolt-physics/wasm-compat";
+import { answer, factor, heldNodes, readScene, say, sixTetrahedra } from "../protocol.mjs";
+
+const { values: options } = parseArgs({ options: { damping: { type: "string", default: "0.1" } } });
+const J = await init();
+const scene = readScene();
+const { header, arrays } = scene;
+const iterations = header.iterations ?? 5;
+const held = heldNodes(arrays);
+
+const unsupported = [];
+const ignored = (is, what) => is && unsupported.push(what);
+ignored(held.partly > 0, `supports of single components (${held.partly} nodes)`);
+ignored(arrays.midlines.rows > 0, "midlines");
+ignored(arrays.biquadratic_tetrahedra.rows > 0, "biquadratic tetrahedra");
+ignored(arrays.springs.values.some((law, i) => i % 6 === 4 && law !== 0), "the power-log law: springs are Hooke's");
+ignored(arrays.springs.values.some((k, i) => i % 6 === 2 && k <= 0), "springs of stiffness 0 or less");
+ignored(arrays.volume_hexahedra.rows > 0, "volume of whole hexahedra: each is cut into 6 tetrahedra, which keep theirs");
+ignored(header.stiffness_damping > 0, "stiffness_damping");
+ignored(header.question === "motion" && arrays.support_motion.rows > 0, "motion of supports");
+ignored(header.question === "motion", `scheme ${header.scheme?.name}`);
+
+// A world without collisions.
+const settings = new J.JoltSettings();
+const pairs = new J.ObjectLayerPairFilterTable(2);
+const layers = new J.BroadPhaseLayerInterfaceTable(2, 1);
+layers.MapObjectToBroadPhaseLayer(0, new J.BroadPhaseLayer(0));
+layers.MapObjectToBroadPhaseLayer(1, new J.BroadPhaseLayer(0));
+settings.mObjectLayerPairFilter = pairs;
+settings.mBroadPhaseLayerInterface = layers;
+settings.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(layers, 1, pairs, 2);
+const jolt = new J.JoltInterface(settings), system = jolt.GetPhysicsSystem();
+const noGravity = new J.Vec3(0, 0, 0);
+system.SetGravity(noGravity);
+
+const shared = new J.SoftBodySharedSettings();
+const vertex = new J.SoftBodySharedSettingsVertex();
+const n = arrays.nodes.rows;
+for (let i = 0; i < n; ++i) {
+  const mass = arrays.mass.at(i, 0);
+  vertex.mPosition = new J.Float3(arrays.nodes.at(i, 0), arrays.nodes.at(i, 1), arrays.nodes.at(i, 2));
+  vertex.mInvMass = held.whole.has(i) ? 0 : 1 / (mass > 0 ? mass : 1e-3);
+  shared.mVertices.push_back(vertex);
+}
+ignored(!arrays.mass.values.some((m) => m > 0), "no masses: every node has 1 g");
+const springs = arrays.springs;
+for (let s = 0; s < springs.rows; ++s) {
+  const a = springs.at(s, 0), b = springs.at(s, 1), k = springs.at(s, 2);
+  if (k <= 0 || (held.whole.has(a) && held.whole.has(b))) continue;
+  const edge = new J.SoftBodySharedSettingsEdge(a, b, 1 / k);
+  edge.mRestLength = springs.at(s, 3);
+  shared.mEdgeConstraints.push_back(edge);
+}
+// Energy k_v/2 V0 (V/V0 - 1)^2, of a constraint of 6 V: compliance 36 V0 / k_v.
+const six = (p, q, r, s) => {
+  const at = [p, q, r, s].map((i) => [0, 1, 2].map((c) => arrays.nodes.at(i, c)));
+  const [u, v, w] = [1, 2, 3].map((i) => at[i].map((x, c) => x - at[0][c]));
+  return Math.abs(u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]));
+};
+const addVolume = (nodes, stiffness) => {
+  if (stiffness <= 0 || nodes.every((node) => held.whole.has(node))) return;
+  const volume = new J.SoftBodySharedSettingsVolume(...nodes, (6 * six(...nodes)) / stiffness);
+  volume.mSixRestVolume = six(...nodes);
+  shared.mVolumeConstraints.push_back(volume);
+};
+for (let c = 0; c < arrays.volume_hexahedra.rows; ++c)
+  for (const cut of sixTetrahedra)
+    addVolume(cut.map((v) => arrays.volume_hexahedra.at(c, v)), arrays.volume_hexahedra.at(c, 8));
+for (let c = 0; c < arrays.volume_tetrahedra.rows; ++c)
+  addVolume([0, 1, 2, 3].map((v) => arrays.volume_tetrahedra.at(c, v)), arrays.volume_tetrahedra.at(c, 4));
+shared.AddFace(new J.SoftBodySharedSettingsFace(0, 1, 2, 0));
+shared.Optimize();
+
+const creation = new J.SoftBodyCreationSettings(shared, new J.RVec3(0, 0, 0), new J.Quat(0, 0, 0, 1), 1);
+creation.mNumIterations = iterations;
+creation.mLinearDamping = Number(options.damping);
+creation.mAllowSleeping = false;
+creation.mUpdatePosition = false;
+creation.mMaxLinearVelocity = 500;
+const bodies = system.GetBodyInterface(), body = bodies.CreateSoftBody(creation);
+bodies.AddBody(body.GetID(), J.EActivation_Activate);
+const motion = J.castObject(body.GetMotionProperties(), J.SoftBodyMotionProperties);
+const vertices = motion.GetVertices();
+
+if (header.question === "rest" && arrays.support_motion.rows > 0)
+  for (let i = 0; i < arrays.supports.rows; ++i) {
+    const node = arrays.supports.at(i, 0), c = arrays.supports.at(i, 1);
+    if (!held.whole.has(node)) continue;
+    vertices.at(node).mPosition[["SetX", "SetY", "SetZ"][c]](arrays.nodes.at(node, c) + arrays.support_motion.at(0, i));
+  }
+
+say({ protocol: 1, name: "Jolt", version: "jolt-physics 1.1.0", method: "XPBD, edges of compliance 1/k",
+      settings: { iterations, linear_damping: Number(options.damping), step: header.step }, unsupported });
+
+/// Loads and gravity as changes of velocity before a step.
+function push(dt, t) {
+  const at = header.question === "motion" ? t : Infinity;
+  const share = (history) => (at === Infinity ? 1 : factor(history, at));
+  const add = (node, x, y, z) => {
+    const v = vertices.at(node).mVelocity;
+    v.Set(v.GetX() + x, v.GetY() + y, v.GetZ() + z);
+  };
+  for (const { acceleration, history } of header.gravity)
+    for (let i = 0; i < n; ++i)
+      if (!held.whole.has(i)) add(i, ...acceleration.map((g) => share(history) * g * dt));
+  for (const { forces, history } of header.loads)
+    for (let row = 0; row < arrays[forces].rows; ++row) {
+      const node = arrays[forces].at(row, 0), mass = arrays.mass.at(node, 0) || 1e-3;
+      if (!held.whole.has(node))
+        add(node, ...[1, 2, 3].map((c) => (share(history) * arrays[forces].at(row, c) * dt) / mass));
+    }
+}
+
+answer(scene, (dt, t) => {
+  push(dt, t);
+  jolt.Step(dt, 1);
+}, () => {
+  const all = new Float64Array(3 * n);
+  for (let i = 0; i < n; ++i) {
+    const p = vertices.at(i).mPosition;
+    all.set([p.GetX(), p.GetY(), p.GetZ()], 3 * i);
+  }
+  return all;
+});

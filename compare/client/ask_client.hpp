@@ -1,0 +1,45 @@
+#pragma once
+
+#include "compare/client/confined_program.hpp"
+#include "compare/client/scene_message.hpp"
+#include "compare/solve/answers.hpp"
+
+namespace springproof::compare {
+
+/// A program that answers scenes.
+struct Client {
+  std::string name;
+  std::vector<std::string> words; ///< its command
+};
+
+/// `NAME=COMMAND` of the command line. A word with a "/" that is a file's path from here becomes absolute.
+/// @throws cases::InputError saying what is missing
+Client client_of(const std::string& argument);
+
+/// What a client says of itself.
+struct Introduction {
+  std::string name, version, method;
+  std::string settings;                 ///< JSON
+  std::vector<std::string> unsupported; ///< what of the scene it ignores
+};
+
+/// A client's answer: a failed one has its reason, whatever the client did.
+struct ClientAnswer {
+  Answer answer;
+  std::optional<Introduction> introduction{}; ///< absent where it did not come to that
+  bool is_at_rest = true;                     ///< false: it ran out of time; a motion always is
+  double model_time = 0;                      ///< s, of the last frame
+  double stepping_seconds = 0;                ///< as the client has measured
+  int n_steps = 0;                            ///< as it has counted
+  std::vector<std::string> warnings{};        ///< what no answer to the case does
+
+  std::optional<double> milliseconds_a_step() const {
+    return n_steps > 0 ? std::optional(1e3 * stepping_seconds / n_steps) : std::nullopt;
+  }
+};
+
+/// Starts a client, confined, tells it the scene, and takes its frames as the springs' solution.
+/// @throws cases::InputError when no springs can be designed
+ClientAnswer ask_client(const cases::Scene& scene, const Client& client, const ClientBudget& budget);
+
+} // namespace springproof::compare

@@ -1,0 +1,203 @@
+#include "compare/client/judge.hpp"
+
+#include "cases/case/error.hpp"
+#include "compare/provenance/machine.hpp"
+#include "compare/solve/springs.hpp"
+#include "compare/table/table.hpp"
+#include "compare/write/quote.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace springproof::compare {
+
+namespace {
+
+/// Time of a step that keeps up with 60 pictures a second, ms.
+double real_time(double step) {
+  return 1e3 * step;
+}
+
+/// The error of largest size, of the measures that have one.
+void add_worst(JudgedRow& row, std::optional<double> MeasuredValue::*error) {
+  WorstError worst;
+  for (std::size_t m = 0; m < row.measures.size(); ++m)
+    if (row.measures[m].*error) worst.add(*(row.measures[m].*error), m);
+  if (!worst.worst) return;
+  const MeasuredValue& at = row.measures[worst.place];
+  row.worst = at.*error;
+  row.worst_at = at.name;
+  row.bar = at.error_uncertainty_percent;
+}
+
+std::optional<double> volume_error(const cases::Solution& fem, const cases::Solution& other) {
+  const auto whole = [](const std::vector<double>& cells) {
+    return std::accumulate(cells.begin(), cells.end(), 0.);
+  };
+  if (fem.cell_volume.empty() || other.cell_volume.empty()) return std::nullopt;
+  return 100 * (whole(other.cell_volume) / whole(fem.cell_volume) - 1);
+}
+
+/// What springs, ours or a client's, come to beside the finite elements.
+JudgedRow row_of(std::string model, const cases::Scene& scene, const Answers& fem, const Answer& answer) {
+  JudgedRow row{std::move(model)};
+  if (!answer.converged()) {
+    row.failure = answer.solution.message;
+    return row;
+  }
+  Answers springs;
+  springs.msm = answer;
+  row.measures = compare_sides(scene, fem, springs).measures;
+  add_worst(row, &MeasuredValue::error_percent);
+  row.volume = volume_error(fem.fem.solution, answer.solution);
+  if (answer.solution.inverted_cells > 0)
+    row.warnings.push_back(fmt::format("{} cells are inverted", answer.solution.inverted_cells));
+  return row;
+}
+
+JudgedRow fem_row(const cases::Scene& scene, const Answers& fem) {
+  JudgedRow row{"finite elements"};
+  if (!fem.fem.converged()) {
+    row.failure = fem.fem.solution.message;
+    return row;
+  }
+  row.measures = compare_sides(scene, fem, Answers{}).measures;
+  add_worst(row, &MeasuredValue::fem_error_percent);
+  row.milliseconds_a_step = milliseconds_a_step(fem.fem);
+  return row;
+}
+
+JudgedRow springs_row(const cases::Scene& scene, const Answers& fem) {
+  std::optional<msm::DesignResult> design;
+  const Answer answer = solve_springs(scene, 1, design);
+  JudgedRow row = row_of("springs", scene, fem, answer);
+  row.milliseconds_a_step = milliseconds_a_step(answer);
+  return row;
+}
+
+JudgedRow client_row(const cases::Scene& scene, const Answers& fem, const Client& client,
+                     const ClientBudget& budget) {
+  const ClientAnswer found = ask_client(scene, client, budget);
+  JudgedRow row = row_of(client.name, scene, fem, found.answer);
+  row.client = found.introduction;
+  row.command = shell_line(client.words);
+  row.warnings.insert(row.warnings.end(), found.warnings.begin(), found.warnings.end());
+  row.is_at_rest = found.is_at_rest;
+  if (row.failure.empty() && !scene.definition.dynamics && found.is_at_rest)
+    row.rests_after = found.model_time;
+  row.milliseconds_a_step = found.milliseconds_a_step();
+  return row;
+}
+
+Json row_to_json(const JudgedRow& row) {
+  Json json{{"model", row.model},
+            {"status", row.status()},
+            {"error_percent", row.worst},
+            {"error_uncertainty", row.bar},
+            {"at", text_or_null(row.worst_at)},
+            {"volume_percent", row.volume},
+            {"milliseconds_a_step", row.milliseconds_a_step},
+            {"keeps_60_hz", row.keeps_60_hz},
+            {"rests_after", row.rests_after},
+            {"reason", text_or_null(row.failure)},
+            {"command", text_or_null(row.command)}};
+  if (row.client) {
+    json["client"] = {{"name", row.client->name},
+                      {"version", row.client->version},
+                      {"method", row.client->method},
+                      {"settings", Json::parse(row.client->settings, nullptr, false)},
+                      {"unsupported", row.client->unsupported}};
+    if (json["client"]["settings"].is_discarded()) json["client"]["settings"] = row.client->settings;
+    json["ignored"] = row.client->unsupported.size();
+  }
+  json["warnings"] = row.warnings;
+  json["measures"] = json_list(row.measures, [](const MeasuredValue& one) {
+    return Json{
+        {"measure", one.name}, {"unit", one.unit}, {"value", one.msm}, {"error_percent", one.error_percent}};
+  });
+  return json;
+}
+
+} // namespace
+
+std::string JudgedRow::status() const {
+  if (!failure.empty()) return "failed";
+  return is_at_rest ? "answered" : "moving";
+}
+
+bool JudgedCase::has_failed() const {
+  return std::any_of(rows.begin(), rows.end(),
+                     [](const JudgedRow& row) { return row.status() != "answered"; });
+}
+
+JudgedCase judge_clients(const cases::Scene& scene, const std::vector<Client>& clients,
+                         const ClientBudget& budget, int meshes) {
+  if (scene.definition.measures.empty())
+    throw cases::InputError(scene.definition.file + ": judge: the case has no [[measure]]; add one");
+  const Answers fem = solve_reference(scene, meshes);
+  JudgedCase judged{scene.definition.name, scene.definition.dynamics.has_value(), false, {}};
+  judged.rows.push_back(fem_row(scene, fem));
+  judged.rows.push_back(springs_row(scene, fem));
+  for (const Client& client : clients) judged.rows.push_back(client_row(scene, fem, client, budget));
+  const double step = scene.definition.dynamics ? scene.definition.dynamics->step : budget.step;
+  for (JudgedRow& row : judged.rows) {
+    if (row.milliseconds_a_step) row.keeps_60_hz = *row.milliseconds_a_step <= real_time(step);
+    for (const MeasuredValue& one : row.measures)
+      judged.is_converged = judged.is_converged || one.fem_limit.has_value();
+  }
+  return judged;
+}
+
+Json judged_to_json(const std::vector<JudgedCase>& cases, const ClientBudget& budget) {
+  Json list = Json::array();
+  for (const JudgedCase& judged : cases)
+    list.push_back({{"case", judged.name},
+                    {"reference", judged.is_converged ? "limit" : "finite elements"},
+                    {"rows", json_list(judged.rows, row_to_json)}});
+  return {{"schema", 1},
+          {"budget", {{"step", budget.step}, {"iterations", budget.iterations}, {"end", budget.model_time}}},
+          {"cases", list}};
+}
+
+void write_judged_text(std::ostream& out, const JudgedCase& judged) {
+  write_wrapped(out,
+                fmt::format("{}: worst errors of the measures from the finite elements{}", judged.name,
+                            judged.is_converged ? "' limit" : " on the same mesh (--converge: their limit)"),
+                2);
+  const Columns columns = columns_of("model status error~%=error_percent{:.2f} +-=error_uncertainty{:.2f} "
+                                     "at{:<} volume~%=volume_percent{:.2f} "
+                                     "rests~s=rests_after{:.2f} ms~a~step=milliseconds_a_step{:.2f} "
+                                     "60~Hz=keeps_60_hz ignores=ignored");
+  write_table(out, columns, json_list(judged.rows, row_to_json));
+  for (const JudgedRow& row : judged.rows) {
+    if (!row.failure.empty()) write_wrapped(out, fmt::format("    {} failed: {}", row.model, row.failure), 6);
+    for (const std::string& warning : row.warnings)
+      write_wrapped(out, fmt::format("    {}: {}", row.model, warning), 6);
+    if (!row.client) continue;
+    const Introduction& client = *row.client;
+    write_wrapped(out,
+                  fmt::format("    {}: {} {}, {}; {}", row.model, client.name, client.version, client.method,
+                              client.settings),
+                  6);
+    if (!client.unsupported.empty())
+      write_wrapped(out, fmt::format("    {} ignores {}", row.model, fmt::join(client.unsupported, "; ")), 6);
+  }
+}
+
+void write_judged_csv(std::ostream& out, const std::vector<JudgedCase>& cases) {
+  Json rows = Json::array();
+  for (const JudgedCase& judged : cases)
+    for (const JudgedRow& row : judged.rows) {
+      Json json = row_to_json(row);
+      json["case"] = judged.name;
+      rows.push_back(json);
+    }
+  write_csv(out,
+            columns_of("case model status error_percent error_uncertainty at volume_percent rests_after "
+                       "milliseconds_a_step keeps_60_hz ignored reason command"),
+            rows);
+}
+
+} // namespace springproof::compare

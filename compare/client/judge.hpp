@@ -1,0 +1,51 @@
+#pragma once
+
+#include "compare/client/ask_client.hpp"
+#include "compare/study/study.hpp"
+#include "compare/table/json.hpp"
+
+#include <ostream>
+
+/// Clients held against the same finite elements as our own springs: `springproof judge`.
+namespace springproof::compare {
+
+/// One way to answer a case: the finite elements on the case's mesh, our springs, or a client.
+struct JudgedRow {
+  std::string model;                    ///< "finite elements", "springs" or the client's name
+  std::optional<Introduction> client{}; ///< of a client that came to it
+  std::string command{};                ///< of a client
+  std::string failure{};                ///< why there is no answer; empty where there is one
+  std::optional<double> worst{};        ///< largest |error| of the measures with its sign, percent
+  std::optional<double> bar{};          ///< points that the limit leaves of it
+  std::string worst_at{};               ///< the measure
+  std::optional<double> volume{};       ///< error of the body's volume, percent of the reference's
+  std::optional<double> milliseconds_a_step{};
+  std::optional<bool> keeps_60_hz{};   ///< it steps through 1/60 s in at most that time
+  std::optional<double> rests_after{}; ///< s of model time; absent where it has not come to rest
+  bool is_at_rest = true;
+  std::vector<std::string> warnings{};
+  std::vector<MeasuredValue> measures{};
+
+  std::string status() const;
+};
+
+struct JudgedCase {
+  std::string name;
+  bool is_motion;
+  bool is_converged; ///< errors are from the finite elements' limit, else from the same mesh
+  std::vector<JudgedRow> rows;
+
+  bool has_failed() const;
+};
+
+/// Solves the finite elements once, our springs, and asks every client.
+/// @param meshes  meshes of the finite elements' limit, as in Request
+/// @throws cases::InputError when the case has no measure, or no springs
+JudgedCase judge_clients(const cases::Scene& scene, const std::vector<Client>& clients,
+                         const ClientBudget& budget, int meshes);
+
+Json judged_to_json(const std::vector<JudgedCase>& cases, const ClientBudget& budget);
+void write_judged_text(std::ostream& out, const JudgedCase& judged);
+void write_judged_csv(std::ostream& out, const std::vector<JudgedCase>& cases);
+
+} // namespace springproof::compare
