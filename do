@@ -3,6 +3,7 @@
 #   ./do tables [ARGS]   regenerate the thesis's tables      ./do test [long|sanitize|release]   the tests of a tier
 #   ./do build           build/springproof, without tests    ./do format  clang-format over the sources
 #   ./do bench           timings (never part of a test)      ./do run ... build and run springproof with these arguments
+#   ./do clients         install the engines that the adapters in clients/ drive (npm)
 #   ./do packages        install what is missing         ./do package build/springproof_*.deb, to be installed with apt-get
 set -eu
 cd "$(dirname "$0")"
@@ -52,6 +53,7 @@ case $command in
     exec build/springproof "$command" "$@" ;;
   build)  build ;;
   packages) install_missing ;;
+  clients) npm ci --prefix clients --no-audit --no-fund >&2 ;;
   package)
     build
     cpack --config build/CPackConfig.cmake -B build >&2 ;;

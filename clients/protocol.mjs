@@ -79,7 +79,8 @@ export function heldNodes({ supports }) {
 export const sixTetrahedra = [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
 
 /// Steps a body until it rests, or through the times of a motion, and says its frames. At rest is a body whose nodes
-/// have stayed within 1e-4 of its largest displacement for half a second.
+/// have stayed within 1e-4 of its largest displacement for half a second. One that never rests is given by its mean
+/// over the second half of the time.
 /// @param step  function(dt, t): one step from t - dt to t      @param positions  returns all nodes' places, m
 export function answer({ header, arrays }, step, positions) {
   const rest = arrays.nodes.values, dt = header.step, n = arrays.nodes.rows;
@@ -90,19 +91,20 @@ export function answer({ header, arrays }, step, positions) {
     begin.seconds += (performance.now() - start) / 1000;
     ++begin.steps;
   };
-  const frame = (number, time, at_rest) =>
-    say({ frame: number, time, seconds: begin.seconds, steps: begin.steps, at_rest, has: "positions", nodes: n },
-        positions());
+  const frame = (number, time, more, values = positions()) =>
+    say({ frame: number, time, seconds: begin.seconds, steps: begin.steps, has: "positions", nodes: n, ...more }, values);
   if (header.question === "motion") {
     header.times.forEach((time, number) => {
       if (number > 0) advance(time);
-      frame(number, time, true);
+      frame(number, time, {});
     });
   } else {
     const every = Math.max(1, Math.round(0.5 / dt)), last = Math.round(header.end / dt);
+    const sum = new Float64Array(3 * n), half = Math.floor(last / 2);
     let before = positions(), k = 0, atRest = false;
     while (k < last && !atRest) {
       advance(++k * dt);
+      if (k > half) positions().forEach((x, i) => (sum[i] += x / (last - half)));
       if (k % every !== 0) continue;
       const now = positions();
       let moved = 0, largest = 0;
@@ -113,7 +115,8 @@ export function answer({ header, arrays }, step, positions) {
       atRest = moved <= 1e-4 * largest;
       before = now;
     }
-    frame(0, k * dt, atRest);
+    if (atRest) frame(0, k * dt, { at_rest: true });
+    else frame(0, k * dt, { at_rest: false, mean_from: half * dt }, sum);
   }
   say({ end: true });
 }

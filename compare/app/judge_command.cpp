@@ -27,6 +27,8 @@ std::vector<Client> clients_of(const JudgeOptions& options) {
   for (const std::string& argument : options.clients) {
     clients.push_back(client_of(argument));
     const std::string& name = clients.back().name;
+    if (name == fem_model || name == springs_model)
+      throw cases::InputError("--client: \"" + name + "\" is the name of a row of ours; give another");
     if (std::count_if(clients.begin(), clients.end(), [&](const Client& one) { return one.name == name; }) >
         1)
       throw cases::InputError("--client: two clients are called \"" + name +

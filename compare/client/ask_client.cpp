@@ -98,6 +98,7 @@ class Session {
       if (!header.contains("at_rest") || !header["at_rest"].is_boolean())
         refuse_answer(stage + ": \"at_rest\" is missing, must be true or false");
       found_.is_at_rest = header["at_rest"].get<bool>();
+      if (header.contains("mean_from")) found_.mean_from = number_at(header, "mean_from", stage);
     }
     const std::string has = text_at(header, "has", stage);
     if (has != "positions" && has != "displacements")
@@ -178,7 +179,10 @@ void take_answer(Session& session, const cases::Scene& scene, ClientAnswer& foun
   solution.status = cases::Status::converged;
   solution.load_reached = 1;
   msm::measure_cells(scene.mesh, solution);
-  if (!found.is_at_rest) found.warnings.push_back(fmt::format("still moves after {:g} s", found.model_time));
+  if (!found.is_at_rest)
+    found.warnings.push_back(fmt::format(
+        "still moves after {:g} s{}", found.model_time,
+        found.mean_from ? fmt::format("; these are its mean places from {:g} s on", *found.mean_from) : ""));
 }
 
 } // namespace

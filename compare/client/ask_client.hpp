@@ -29,6 +29,7 @@ struct ClientAnswer {
   std::optional<Introduction> introduction{}; ///< absent where it did not come to that
   bool is_at_rest = true;                     ///< false: it ran out of time; a motion always is
   double model_time = 0;                      ///< s, of the last frame
+  std::optional<double> mean_from{};          ///< s; present where a moving body is given by its mean places
   double stepping_seconds = 0;                ///< as the client has measured
   int n_steps = 0;                            ///< as it has counted
   std::vector<std::string> warnings{};        ///< what no answer to the case does

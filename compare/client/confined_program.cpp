@@ -144,7 +144,8 @@ std::string why_not_started(const std::string& name, const NotStarted& why) {
 struct ConfinedProgram::Wait {
   double until, seconds;
   const std::string& stage;
-  Wait(double seconds, const std::string& stage) : until(now() + seconds), seconds(seconds), stage(stage) {}
+  Wait(double within, const std::string& for_what)
+      : until(now() + within), seconds(within), stage(for_what) {}
 };
 
 ConfinedProgram::ConfinedProgram(std::vector<std::string> words, const ProgramLimits& limits)

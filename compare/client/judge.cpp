@@ -58,7 +58,7 @@ JudgedRow row_of(std::string model, const cases::Scene& scene, const Answers& fe
 }
 
 JudgedRow fem_row(const cases::Scene& scene, const Answers& fem) {
-  JudgedRow row{"finite elements"};
+  JudgedRow row{fem_model};
   if (!fem.fem.converged()) {
     row.failure = fem.fem.solution.message;
     return row;
@@ -72,7 +72,7 @@ JudgedRow fem_row(const cases::Scene& scene, const Answers& fem) {
 JudgedRow springs_row(const cases::Scene& scene, const Answers& fem) {
   std::optional<msm::DesignResult> design;
   const Answer answer = solve_springs(scene, 1, design);
-  JudgedRow row = row_of("springs", scene, fem, answer);
+  JudgedRow row = row_of(springs_model, scene, fem, answer);
   row.milliseconds_a_step = milliseconds_a_step(answer);
   return row;
 }
@@ -113,9 +113,11 @@ Json row_to_json(const JudgedRow& row) {
     json["ignored"] = row.client->unsupported.size();
   }
   json["warnings"] = row.warnings;
-  json["measures"] = json_list(row.measures, [](const MeasuredValue& one) {
-    return Json{
-        {"measure", one.name}, {"unit", one.unit}, {"value", one.msm}, {"error_percent", one.error_percent}};
+  json["measures"] = json_list(row.measures, [&](const MeasuredValue& one) {
+    return Json{{"measure", one.name},
+                {"unit", one.unit},
+                {"value", row.model == fem_model ? one.fem : one.msm},
+                {"error_percent", one.error_percent}};
   });
   return json;
 }

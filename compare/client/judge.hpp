@@ -9,6 +9,8 @@
 /// Clients held against the same finite elements as our own springs: `springproof judge`.
 namespace springproof::compare {
 
+inline const std::string fem_model = "finite elements", springs_model = "springs"; ///< names of our own rows
+
 /// One way to answer a case: the finite elements on the case's mesh, our springs, or a client.
 struct JudgedRow {
   std::string model;                    ///< "finite elements", "springs" or the client's name

@@ -1,0 +1,62 @@
+// Rapier's soft bodies as a client of springproof: see README.md beside this file.
+import { parseArgs } from "node:util";
+import R from "@dimforge/rapier3d-compat";
+import { answer, heldNodes, readScene, say, sixTetrahedra } from "../protocol.mjs";
+
+const { values: options } = parseArgs({
+  options: {
+    solver: { type: "string", default: "constraints" }, // or fem
+    model: { type: "string", default: "neohooke" }, // volume, corotational or neohooke
+    damping: { type: "string", default: "" },
+  },
+});
+const solver = ["constraints", "fem"].indexOf(options.solver);
+const model = ["volume", "corotational", "neohooke"].indexOf(options.model);
+if (solver < 0 || model < 0) throw new Error("--solver constraints|fem, --model volume|corotational|neohooke");
+await R.init();
+const scene = readScene();
+const { header, arrays } = scene;
+const held = heldNodes(arrays), n = arrays.nodes.rows, materials = arrays.materials;
+
+const unsupported = ["springs and their terms: it takes E and nu on tetrahedra"];
+const ignored = (is, what) => is && unsupported.push(what);
+ignored(arrays.hexahedra, "hexahedra: each is cut into 6 tetrahedra");
+ignored(held.partly > 0, `supports of single components (${held.partly} nodes)`);
+ignored(arrays.support_motion.rows > 0, "motion of supports");
+ignored(header.loads.length > 0, "loads on nodes");
+ignored(header.gravity.length > 0 && header.question === "motion" && header.gravity.some(({ history }) =>
+  history.points.length > 0 || history.frequency !== 0), "histories of gravity");
+const isSame = [0, 1, 2].every((c) => materials.values.every((x, i) => i % 4 !== c || x === materials.at(0, c)));
+ignored(!isSame, "all materials but the first");
+ignored(header.stiffness_damping > 0, "stiffness_damping");
+ignored(header.question === "motion", `scheme ${header.scheme?.name}`);
+
+const cells = [];
+if (arrays.tetrahedra) cells.push(...arrays.tetrahedra.values);
+for (let c = 0; c < (arrays.hexahedra?.rows ?? 0); ++c)
+  for (const cut of sixTetrahedra) cells.push(...cut.map((v) => arrays.hexahedra.at(c, v)));
+
+const acceleration = [0, 0, 0];
+for (const { acceleration: g } of header.gravity) g.forEach((x, c) => (acceleration[c] += x));
+const world = new R.World({ x: acceleration[0], y: acceleration[1], z: acceleration[2] });
+world.timestep = header.step;
+if (header.iterations) world.integrationParameters.numSolverIterations = header.iterations;
+const material = new R.SoftBodyMaterial();
+material.youngModulus = materials.at(0, 0);
+material.poissonRatio = materials.at(0, 1);
+if (options.damping) material.elasticDampingRatio = Number(options.damping);
+const mass = arrays.mass.values.reduce((sum, m) => sum + m, 0);
+const description = new R.SoftBodyDesc(new Float32Array(arrays.nodes.values)).setCells(new Uint32Array(cells))
+  .setPinnedParticles(new Uint32Array([...held.whole])).setMaterial(material).setCellModel(model).setSolver(solver)
+  .setMass(mass > 0 ? mass : 1).setSelfContacts(false).setCanSleep(false);
+try {
+  description.setNoSurfaceCollider();
+} catch {
+  // a version that has no colliders by default
+}
+const body = world.createSoftBody(description);
+
+say({ protocol: 1, name: "Rapier", version: R.version(), method: `${options.solver}, ${options.model}`,
+      settings: { iterations: world.integrationParameters.numSolverIterations, damping: material.elasticDampingRatio,
+                  step: header.step }, unsupported });
+answer(scene, () => world.step(), () => Float64Array.from(body.particlePositions()).subarray(0, 3 * n));

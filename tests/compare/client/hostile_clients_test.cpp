@@ -1,0 +1,146 @@
+#include "compare/client/ask_client.hpp"
+
+#include "cases/case/error.hpp"
+#include "cases/case/read_case.hpp"
+#include "compare/solve/springs.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+
+using namespace springproof;
+using compare::ClientAnswer;
+
+namespace {
+
+const std::string python = "/usr/bin/python3";
+
+/// A cube of 2 x 2 x 2 cells under shear.
+cases::Scene small_scene() {
+  return cases::make_scene(cases::read_case(
+      SPRINGPROOF_SOURCE_DIR "/cases/thesis/linear_elastic/cube_shear_small.toml", {"body.cells=[2,2,2]"}));
+}
+
+/// What all clients of these tests begin with: n is the number of nodes, hello() and frame() speak.
+const std::string beginning = R"(
+import json, os, socket, struct, subprocess, sys, time
+out = sys.stdout.buffer
+def say(line, raw=b""): out.write((json.dumps(line) if isinstance(line, dict) else line).encode() + b"\n" + raw); out.flush()
+def read():
+    header = json.loads(sys.stdin.buffer.readline())
+    for entry in header["arrays"]:
+        raw = sys.stdin.buffer.read(8 * entry["shape"][0] * entry["shape"][1])
+        if entry["name"] == "nodes": nodes = struct.unpack("<%dd" % (len(raw) // 8), raw)
+    return nodes
+def hello(**more): say({"protocol": 1, "name": "x", "version": "1", "method": "none", "settings": {}, "unsupported": [], **more})
+def frame(values, raw=None, **more):
+    say({"frame": 0, "time": 1, "seconds": 0, "steps": 1, "at_rest": True, "has": "positions", "nodes": len(values) // 3, **more},
+        struct.pack("<%dd" % len(values), *values) if raw is None else raw)
+)";
+
+ClientAnswer answer_of(const std::string& program, double seconds = 3) {
+  compare::ClientBudget budget;
+  budget.start_seconds = budget.seconds = seconds;
+  return compare::ask_client(small_scene(), {"x", {python, "-c", beginning + program}}, budget);
+}
+
+/// Why the client's row failed; empty if it did not.
+std::string failure_of(const std::string& program, double seconds = 3) {
+  const ClientAnswer found = answer_of(program, seconds);
+  return found.answer.converged() ? "" : found.answer.solution.message;
+}
+
+/// Processes of this system whose command line has a word.
+int n_processes_with(const std::string& word) {
+  int n = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream in(entry.path() / "cmdline", std::ios::binary);
+    const std::string line((std::istreambuf_iterator<char>(in)), {});
+    n += line.find(word) != std::string::npos ? 1 : 0;
+  }
+  return n;
+}
+
+} // namespace
+
+TEST_CASE("a client that hangs, crashes or speaks nonsense is a failed row that says why", "[long]") {
+  const auto [what, program, reason] = GENERATE(table<const char*, const char*, const char*>({
+      {"hangs before reading", "time.sleep(60)", "introducing itself: took longer than 3 s"},
+      {"hangs after reading", "read(); time.sleep(60)", "introducing itself: took longer than 3 s"},
+      {"hangs after its introduction", "read(); hello(); time.sleep(60)", "frame 0: took longer than"},
+      {"hangs within a frame", "x = read(); hello(); frame(x, raw=b'12345678'); time.sleep(60)",
+       "frame 0: took longer than"},
+      {"hangs instead of ending", "x = read(); hello(); frame(x); time.sleep(60)",
+       "after 1 frame: took longer than"},
+      {"does not start", "import no_such_module", "ended early, with status 1; it said:"},
+      {"crashes", "read(); hello(); os.abort()", "crashed (Aborted)"},
+      {"ends early", "x = read(); hello()", "frame 0: ended early, with status 0"},
+      {"NaN", "x = read(); hello(); frame([float('nan')] * len(x))", "node 0 is at no finite place"},
+      {"infinite", "x = read(); hello(); frame([float('inf')] * len(x))", "node 0 is at no finite place"},
+      {"too few nodes", "x = read(); hello(); frame(x[3:])", "26 nodes, the scene has 27"},
+      {"too many nodes", "x = read(); hello(); frame(x + x[:3])", "28 nodes, the scene has 27"},
+      {"another frame", "x = read(); hello(); frame(x, frame=1)", "\"frame\" is 1, must be 0"},
+      {"one frame more", "x = read(); hello(); frame(x); frame(x)", "it goes on"},
+      {"chatter before", "read(); say('Welcome to X 1.0'); hello()", "no JSON object: \"Welcome to X 1.0\""},
+      {"chatter after", "x = read(); hello(); say('step 1')", "no JSON object: \"step 1\""},
+      {"another protocol", "read(); hello(protocol=2)", "protocol is 2, must be 1"},
+      {"ignores nothing it says", "read(); hello(unsupported=3)", "\"unsupported\" is missing or no list"},
+      {"a line of gigabytes", "read()\nwhile True: out.write(b'a' * 1000000)", "a line of more than"},
+      {"negative time", "x = read(); hello(); frame(x, seconds=-1)", "\"seconds\" is missing or no number"},
+      {"gives up", "read(); hello(); say({'error': 'no convergence'})", "it gave up: no convergence"},
+  }));
+  INFO(what);
+  CHECK_THAT(failure_of(program), Catch::Contains(reason));
+}
+
+TEST_CASE("a client cannot write outside its folder, use the network, or leave processes behind") {
+  const std::string place = (std::filesystem::temp_directory_path() / "springproof-outside").string();
+  std::filesystem::remove(place);
+  CHECK_THAT(failure_of("open('" + place + "', 'w')"), Catch::Contains("Read-only file system"));
+  CHECK_FALSE(std::filesystem::exists(place));
+  CHECK_THAT(failure_of("socket.socket()"), Catch::Contains("Operation not permitted"));
+  CHECK_THAT(failure_of("socket.socket(socket.AF_UNIX)"), Catch::Contains("Operation not permitted"));
+  // Its own folder is writable, and what it starts ends with it.
+  const std::string mark = "springproof_left_behind";
+  const std::string fork = "x = read(); open('a', 'w').write('b')\n"
+                           "subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(100)', '" +
+                           mark + "'], start_new_session=True)\nhello(); frame(x); say({'end': True})";
+  CHECK(failure_of(fork).empty());
+  CHECK(n_processes_with(mark + std::string(1, '\0')) == 0);
+}
+
+TEST_CASE("displacements in other axes or units are warned of") {
+  const auto equilibrium = [](const std::string& changed) {
+    std::optional<msm::DesignResult> design;
+    const compare::Answer springs = compare::solve_springs(small_scene(), 1, design);
+    std::string values;
+    for (const Eigen::Vector3d& u : springs.solution.displacement)
+      values += fmt::format("({:.17g}, {:.17g}, {:.17g}),", u.x() * 1e-3, u.y() * 1e-3, u.z() * 1e-3);
+    return answer_of("x = read(); u = [" + values + "]\nhello(); frame([c for a in u for c in (" + changed +
+                     ")], has='displacements'); say({'end': True})");
+  };
+  const ClientAnswer right = equilibrium("a");
+  CHECK(right.answer.converged());
+  CHECK(right.warnings.empty());
+  CHECK_FALSE(equilibrium("(a[1], a[2], a[0])").warnings.empty());
+  CHECK_FALSE(equilibrium("(1000 * a[0], 1000 * a[1], 1000 * a[2])").warnings.empty());
+}
+
+TEST_CASE("the reference client has our own springs' equilibrium to 1e-9") {
+  const cases::Scene scene = small_scene();
+  std::optional<msm::DesignResult> design;
+  const compare::Answer springs = compare::solve_springs(scene, 1, design);
+  const ClientAnswer client = compare::ask_client(
+      scene, {"reference", {python, SPRINGPROOF_SOURCE_DIR "/clients/reference/client.py"}}, {});
+  INFO(client.answer.solution.message);
+  REQUIRE(client.answer.converged());
+  double largest = 0, difference = 0;
+  for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
+    largest = std::max(largest, springs.solution.displacement[n].norm());
+    difference = std::max(difference,
+                          (springs.solution.displacement[n] - client.answer.solution.displacement[n]).norm());
+  }
+  CHECK(difference < 1e-9 * largest); // Newton's method stops at 1e-9 of the forces, or well below
+}
