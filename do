@@ -3,7 +3,7 @@
 #   ./do tables [ARGS]   regenerate the thesis's tables      ./do test [long|sanitize|release]   the tests of a tier
 #   ./do build           build/springproof, without tests    ./do format  clang-format over the sources
 #   ./do bench           timings (never part of a test)      ./do run ... build and run springproof with these arguments
-#   ./do clients         install the engines that the adapters in clients/ drive (npm)
+#   ./do clients         install what the adapters in clients/ drive: engines (npm) and numpy
 #   ./do packages        install what is missing         ./do package build/springproof_*.deb, to be installed with apt-get
 set -eu
 cd "$(dirname "$0")"
@@ -19,6 +19,12 @@ install_missing() {
   wanted=$(sed -e "1,${last}!d" -e 's/#.*//' packages.txt)
   # For the accessibility test. Where node is not Debian's own, Debian's npm would clash with it.
   [ "${1:-}" != tests ] || command -v npm >/dev/null || wanted="$wanted npm"
+  install "$wanted"
+}
+
+# install "PACKAGE...": those of them that are missing.
+install() {
+  wanted=$1
   # shellcheck disable=SC2086
   installed=$(dpkg-query -W -f '${Package} ${db:Status-Status}\n' $wanted 2>/dev/null | sed -n 's/ installed$//p' || true)
   missing=
@@ -53,7 +59,11 @@ case $command in
     exec build/springproof "$command" "$@" ;;
   build)  build ;;
   packages) install_missing ;;
-  clients) npm ci --prefix clients --no-audit --no-fund >&2 ;;
+  clients)
+    wanted=python3-numpy # the reference client's
+    command -v npm >/dev/null || wanted="$wanted npm"
+    install "$wanted"
+    npm ci --prefix clients --no-audit --no-fund >&2 ;;
   package)
     build
     cpack --config build/CPackConfig.cmake -B build >&2 ;;
@@ -74,5 +84,5 @@ case $command in
     build springproof springproof_bench
     build/springproof_bench "$@"
     exec python3 tests/bench/finite_elements.py ;;
-  *) sed -n '2,6s/^# \{0,1\}//p' "$0"; [ "$command" = help ] || exit 2 ;;
+  *) sed -n '2,7s/^# \{0,1\}//p' "$0"; [ "$command" = help ] || exit 2 ;;
 esac

@@ -70,29 +70,34 @@ export function factor({ points, frequency }, t) {
 /// The nodes that are held in all three components, and the number of those held in fewer.
 export function heldNodes({ supports }) {
   const count = new Map();
-  for (let i = 0; i < supports.rows; ++i) count.set(supports.at(i, 0), (count.get(supports.at(i, 0)) ?? 0) + 1);
+  for (let i = 0; i < supports.rows; ++i) {
+    const node = supports.at(i, 0);
+    count.set(node, (count.get(node) ?? 0) + 1);
+  }
   const whole = [...count].filter(([, n]) => n === 3).map(([node]) => node);
   return { whole: new Set(whole), partly: count.size - whole.length };
 }
 
 /// A hexahedron, vertex i + 2j + 4k, cut into six tetrahedra around its diagonal from vertex 0 to 7.
-export const sixTetrahedra = [[0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7]];
+export const sixTetrahedra = [
+  [0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7],
+];
 
-/// Steps a body until it rests, or through the times of a motion, and says its frames. At rest is a body whose nodes
-/// have stayed within 1e-4 of its largest displacement for half a second. One that never rests is given by its mean
-/// over the second half of the time.
-/// @param step  function(dt, t): one step from t - dt to t      @param positions  returns all nodes' places, m
+/// Steps a body until it rests, or through the times of a motion, and says its frames. At rest is a body whose
+/// nodes have stayed within 1e-4 of its largest displacement for half a second. One that never rests is given
+/// by its mean over the second half of the time.
+/// @param step  function(dt, t): one step from t - dt to t    @param positions  returns all nodes' places, m
 export function answer({ header, arrays }, step, positions) {
   const rest = arrays.nodes.values, dt = header.step, n = arrays.nodes.rows;
-  const begin = { seconds: 0, steps: 0 };
+  const spent = { seconds: 0, steps: 0 };
   const advance = (t) => {
     const start = performance.now();
     step(dt, t);
-    begin.seconds += (performance.now() - start) / 1000;
-    ++begin.steps;
+    spent.seconds += (performance.now() - start) / 1000;
+    ++spent.steps;
   };
   const frame = (number, time, more, values = positions()) =>
-    say({ frame: number, time, seconds: begin.seconds, steps: begin.steps, has: "positions", nodes: n, ...more }, values);
+    say({ frame: number, time, ...spent, has: "positions", nodes: n, ...more }, values);
   if (header.question === "motion") {
     header.times.forEach((time, number) => {
       if (number > 0) advance(time);

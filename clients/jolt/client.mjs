@@ -15,11 +15,14 @@ const ignored = (is, what) => is && unsupported.push(what);
 ignored(held.partly > 0, `supports of single components (${held.partly} nodes)`);
 ignored(arrays.midlines.rows > 0, "midlines");
 ignored(arrays.biquadratic_tetrahedra.rows > 0, "biquadratic tetrahedra");
-ignored(arrays.springs.values.some((law, i) => i % 6 === 4 && law !== 0), "the power-log law: springs are Hooke's");
-ignored(arrays.springs.values.some((k, i) => i % 6 === 2 && k <= 0), "springs of stiffness 0 or less");
-ignored(arrays.volume_hexahedra.rows > 0, "volume of whole hexahedra: each is cut into 6 tetrahedra, which keep theirs");
+const hasSpring = (column, is) => arrays.springs.values.some((x, i) => i % 6 === column && is(x));
+ignored(hasSpring(4, (law) => law !== 0), "the power-log law: springs are Hooke's");
+ignored(hasSpring(2, (k) => k <= 0), "springs of stiffness 0 or less");
+ignored(arrays.volume_hexahedra.rows > 0, "volume of whole hexahedra: six tetrahedra of each keep theirs");
+ignored(arrays.volume_patches.rows > 0, "volume of the tetrahedra around nodes");
 ignored(header.stiffness_damping > 0, "stiffness_damping");
 ignored(header.question === "motion" && arrays.support_motion.rows > 0, "motion of supports");
+ignored(header.loads.length > 0, "loads on nodes within a step: they act at its beginning alone");
 ignored(header.question === "motion", `scheme ${header.scheme?.name}`);
 
 // A world without collisions.
@@ -32,8 +35,6 @@ settings.mObjectLayerPairFilter = pairs;
 settings.mBroadPhaseLayerInterface = layers;
 settings.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(layers, 1, pairs, 2);
 const jolt = new J.JoltInterface(settings), system = jolt.GetPhysicsSystem();
-const noGravity = new J.Vec3(0, 0, 0);
-system.SetGravity(noGravity);
 
 const shared = new J.SoftBodySharedSettings();
 const vertex = new J.SoftBodySharedSettingsVertex();
@@ -57,7 +58,8 @@ for (let s = 0; s < springs.rows; ++s) {
 const six = (p, q, r, s) => {
   const at = [p, q, r, s].map((i) => [0, 1, 2].map((c) => arrays.nodes.at(i, c)));
   const [u, v, w] = [1, 2, 3].map((i) => at[i].map((x, c) => x - at[0][c]));
-  return Math.abs(u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0]));
+  const cross = [v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]];
+  return Math.abs(u[0] * cross[0] + u[1] * cross[1] + u[2] * cross[2]);
 };
 const addVolume = (nodes, stiffness) => {
   if (stiffness <= 0 || nodes.every((node) => held.whole.has(node))) return;
@@ -68,8 +70,6 @@ const addVolume = (nodes, stiffness) => {
 for (let c = 0; c < arrays.volume_hexahedra.rows; ++c)
   for (const cut of sixTetrahedra)
     addVolume(cut.map((v) => arrays.volume_hexahedra.at(c, v)), arrays.volume_hexahedra.at(c, 8));
-for (let c = 0; c < arrays.volume_tetrahedra.rows; ++c)
-  addVolume([0, 1, 2, 3].map((v) => arrays.volume_tetrahedra.at(c, v)), arrays.volume_tetrahedra.at(c, 4));
 shared.AddFace(new J.SoftBodySharedSettingsFace(0, 1, 2, 0));
 shared.Optimize();
 
@@ -88,13 +88,16 @@ if (header.question === "rest" && arrays.support_motion.rows > 0)
   for (let i = 0; i < arrays.supports.rows; ++i) {
     const node = arrays.supports.at(i, 0), c = arrays.supports.at(i, 1);
     if (!held.whole.has(node)) continue;
-    vertices.at(node).mPosition[["SetX", "SetY", "SetZ"][c]](arrays.nodes.at(node, c) + arrays.support_motion.at(0, i));
+    const place = arrays.nodes.at(node, c) + arrays.support_motion.at(0, i);
+    vertices.at(node).mPosition[["SetX", "SetY", "SetZ"][c]](place);
   }
 
 say({ protocol: 1, name: "Jolt", version: "jolt-physics 1.1.0", method: "XPBD, edges of compliance 1/k",
       settings: { iterations, linear_damping: Number(options.damping), step: header.step }, unsupported });
 
-/// Loads and gravity as changes of velocity before a step.
+const ownGravity = new J.Vec3(0, 0, 0);
+/// Gravity is Jolt's own, which acts in each substep of a step. It has no forces on single vertices: loads
+/// change their velocities once, before a step.
 function push(dt, t) {
   const at = header.question === "motion" ? t : Infinity;
   const share = (history) => (at === Infinity ? 1 : factor(history, at));
@@ -102,9 +105,12 @@ function push(dt, t) {
     const v = vertices.at(node).mVelocity;
     v.Set(v.GetX() + x, v.GetY() + y, v.GetZ() + z);
   };
-  for (const { acceleration, history } of header.gravity)
-    for (let i = 0; i < n; ++i)
-      if (!held.whole.has(i)) add(i, ...acceleration.map((g) => share(history) * g * dt));
+  const gravity = [0, 0, 0];
+  for (const { acceleration, history } of header.gravity) {
+    acceleration.forEach((g, c) => (gravity[c] += share(history) * g));
+  }
+  ownGravity.Set(...gravity);
+  system.SetGravity(ownGravity);
   for (const { forces, history } of header.loads)
     for (let row = 0; row < arrays[forces].rows; ++row) {
       const node = arrays[forces].at(row, 0), mass = arrays.mass.at(node, 0) || 1e-3;

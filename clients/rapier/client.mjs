@@ -12,7 +12,8 @@ const { values: options } = parseArgs({
 });
 const solver = ["constraints", "fem"].indexOf(options.solver);
 const model = ["volume", "corotational", "neohooke"].indexOf(options.model);
-if (solver < 0 || model < 0) throw new Error("--solver constraints|fem, --model volume|corotational|neohooke");
+if (solver < 0 || model < 0)
+  throw new Error("--solver constraints|fem, --model volume|corotational|neohooke");
 await R.init();
 const scene = readScene();
 const { header, arrays } = scene;
@@ -24,9 +25,10 @@ ignored(arrays.hexahedra, "hexahedra: each is cut into 6 tetrahedra");
 ignored(held.partly > 0, `supports of single components (${held.partly} nodes)`);
 ignored(arrays.support_motion.rows > 0, "motion of supports");
 ignored(header.loads.length > 0, "loads on nodes");
-ignored(header.gravity.length > 0 && header.question === "motion" && header.gravity.some(({ history }) =>
-  history.points.length > 0 || history.frequency !== 0), "histories of gravity");
-const isSame = [0, 1, 2].every((c) => materials.values.every((x, i) => i % 4 !== c || x === materials.at(0, c)));
+const changes = ({ history }) => history.points.length > 0 || history.frequency !== 0;
+ignored(header.question === "motion" && header.gravity.some(changes), "histories of gravity");
+const isFirst = (x, i) => i % 4 === 3 || x === materials.at(0, i % 4);
+const isSame = materials.values.every(isFirst);
 ignored(!isSame, "all materials but the first");
 ignored(header.stiffness_damping > 0, "stiffness_damping");
 ignored(header.question === "motion", `scheme ${header.scheme?.name}`);
@@ -47,7 +49,8 @@ material.poissonRatio = materials.at(0, 1);
 if (options.damping) material.elasticDampingRatio = Number(options.damping);
 const mass = arrays.mass.values.reduce((sum, m) => sum + m, 0);
 const description = new R.SoftBodyDesc(new Float32Array(arrays.nodes.values)).setCells(new Uint32Array(cells))
-  .setPinnedParticles(new Uint32Array([...held.whole])).setMaterial(material).setCellModel(model).setSolver(solver)
+  .setPinnedParticles(new Uint32Array([...held.whole])).setMaterial(material)
+  .setCellModel(model).setSolver(solver)
   .setMass(mass > 0 ? mass : 1).setSelfContacts(false).setCanSleep(false);
 try {
   description.setNoSurfaceCollider();
@@ -57,6 +60,6 @@ try {
 const body = world.createSoftBody(description);
 
 say({ protocol: 1, name: "Rapier", version: R.version(), method: `${options.solver}, ${options.model}`,
-      settings: { iterations: world.integrationParameters.numSolverIterations, damping: material.elasticDampingRatio,
-                  step: header.step }, unsupported });
+      settings: { iterations: world.integrationParameters.numSolverIterations,
+                  damping: material.elasticDampingRatio, step: header.step }, unsupported });
 answer(scene, () => world.step(), () => Float64Array.from(body.particlePositions()).subarray(0, 3 * n));

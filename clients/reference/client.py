@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Reference client of springproof's protocol: springs, midlines, volume terms and biquadratic tetrahedra, solved
-to their equilibrium by Newton's method, or moved by implicit Euler. docs/reference/client-protocol.md explains
-every key that is read here. Needs numpy alone; matrices are dense, so bodies of some hundred nodes."""
+"""Reference client of springproof's protocol: springs, midlines, volume terms and biquadratic tetrahedra,
+solved to their equilibrium by Newton's method, or moved by implicit Euler. docs/reference/client-protocol.md
+explains every key that is read here. Needs numpy alone; matrices are dense: bodies of some hundred nodes."""
 import json
 import sys
 import time
@@ -11,6 +11,8 @@ import numpy as np
 EDGES = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
 # The six faces of a hexahedron whose vertex is i + 2j + 4k, anticlockwise from outside.
 FACES = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
+
+TETRAHEDRON_FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 
 
 def read_scene(stream):
@@ -50,7 +52,8 @@ def factor(history, t):
 
 def cross_matrix(v):
     zero = np.zeros(len(v))
-    return np.stack([zero, -v[:, 2], v[:, 1], v[:, 2], zero, -v[:, 0], -v[:, 1], v[:, 0], zero], 1).reshape(-1, 3, 3)
+    rows = [zero, -v[:, 2], v[:, 1], v[:, 2], zero, -v[:, 0], -v[:, 1], v[:, 0], zero]
+    return np.stack(rows, 1).reshape(-1, 3, 3)
 
 
 class Body:
@@ -62,19 +65,20 @@ class Body:
         # A spring's vector is a weighted sum of nodes: two of them, or the eight of a midline.
         self.groups = []
         if len(springs):
-            self.groups.append((springs[:, :2].astype(int), np.tile([-1.0, 1.0], (len(springs), 1)), springs[:, 2:]))
+            weights = np.tile([-1.0, 1.0], (len(springs), 1))
+            self.groups.append((springs[:, :2].astype(int), weights, springs[:, 2:]))
         if len(mid):
             upper = np.arange(8)[None, :] >> mid[:, 8].astype(int)[:, None] & 1
             self.groups.append((mid[:, :8].astype(int), np.where(upper, 0.25, -0.25), mid[:, 9:]))
         self.volumes = []
-        hexahedra, tetrahedra = arrays["volume_hexahedra"], arrays["volume_tetrahedra"]
-        # The volume is a sum over triangles; that under a bilinear face is the mean of its two triangulations.
+        hexahedra = arrays["volume_hexahedra"]
+        # A volume is a sum over triangles; that under a bilinear face is the mean of its two triangulations.
         halves = [t for a, b, c, d in FACES for t in ((a, b, c), (a, c, d), (a, b, d), (b, c, d))]
         if len(hexahedra):
             self.volumes.append((hexahedra[:, :8].astype(int), halves, 0.5, hexahedra[:, 8:]))
-        if len(tetrahedra):
-            faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-            self.volumes.append((tetrahedra[:, :4].astype(int), faces, 1.0, tetrahedra[:, 4:]))
+        # A patch's volume is a quarter of its tetrahedra's.
+        patches = arrays["volume_patch_tetrahedra"].astype(int)
+        self.patches = (patches[:, 0], patches[:, 1:], arrays["volume_patches"])
         tets = arrays["biquadratic_tetrahedra"]
         self.tets = (tets[:, :4].astype(int), tets[:, 4:40].reshape(-1, 6, 6), tets[:, 40:])
 
@@ -99,9 +103,11 @@ class Body:
             for a in range(weights.shape[1]):
                 np.add.at(force, nodes[:, a], -weights[:, a, None] * pull)
                 for b in range(weights.shape[1]):
-                    np.add.at(tangent, (nodes[:, a], nodes[:, b]), (weights[:, a] * weights[:, b])[:, None, None] * block)
+                    both = (weights[:, a] * weights[:, b])[:, None, None]
+                    np.add.at(tangent, (nodes[:, a], nodes[:, b]), both * block)
         for nodes, triangles, part, (k, rest, logarithmic) in ((n, t, w, p.T) for n, t, w, p in self.volumes):
             self.add_volumes(x, nodes, triangles, part, k, rest, logarithmic, force, tangent, clamp)
+        self.add_patches(x, force, tangent, clamp)
         self.add_tetrahedra(x, force, tangent, clamp)
         return force, tangent
 
@@ -127,6 +133,31 @@ class Body:
                 if not clamp:
                     block = block + pressure[:, None, None] * second[:, a, b]
                 np.add.at(tangent, (nodes[:, a], nodes[:, b]), block)
+
+    def add_patches(self, x, force, tangent, clamp):
+        """Pressures of the volumes around nodes, each of which pulls at all nodes of its tetrahedra."""
+        of, nodes, laws = self.patches
+        if not len(laws):
+            return
+        k, rest, logarithmic = laws.T
+        at = x[nodes]
+        volume, gradient = np.zeros(len(laws)), np.zeros((len(laws), self.n, 3))
+        second = np.zeros((len(nodes), 4, 4, 3, 3))
+        for a, b, c in TETRAHEDRON_FACES:  # a . (b x c) / 6 of each face, a quarter of it
+            np.add.at(volume, of, np.einsum("si,si->s", at[:, a], np.cross(at[:, b], at[:, c])) / 24)
+            for p, q, r in ((a, b, c), (b, c, a), (c, a, b)):
+                np.add.at(gradient, (of, nodes[:, p]), np.cross(at[:, q], at[:, r]) / 24)
+                second[:, p, q] -= cross_matrix(at[:, r]) / 24
+                second[:, p, r] += cross_matrix(at[:, q]) / 24
+        ratio = volume / rest
+        pressure = k * np.where(logarithmic == 1, np.log(ratio), ratio - 1)
+        slope = k / rest * np.where(logarithmic == 1, 1 / ratio, 1)
+        force -= np.einsum("p,pni->ni", pressure, gradient)
+        tangent += np.einsum("p,pni,pmj->nmij", slope, gradient, gradient, optimize=True)
+        if not clamp:
+            for a in range(4):
+                for b in range(4):
+                    np.add.at(tangent, (nodes[:, a], nodes[:, b]), pressure[of, None, None] * second[:, a, b])
 
     def add_tetrahedra(self, x, force, tangent, clamp):
         """W = 1/2 sum_ef K_ef D_e D_f, D_e = l_e^2 - L_e^2."""
@@ -218,7 +249,8 @@ def come_to_rest(scene):
         if part == 1 and n_parts > 1:  # the body follows linearly at first
             tangent = flat(scene.body.evaluate(scene.rest)[1])
             free = scene.is_free
-            u[free] = np.linalg.solve(tangent[np.ix_(free, free)], -tangent[np.ix_(free, scene.held)] @ (target - before))
+            pull = -tangent[np.ix_(free, scene.held)] @ (target - before)
+            u[free] = np.linalg.solve(tangent[np.ix_(free, free)], pull)
         elif part > 1:
             u *= part / (part - 1)
             u[scene.held] = target
@@ -265,14 +297,15 @@ def main():
     unsupported = ["masses that are not lumped"] if header["masses"] == "consistent" and is_motion else []
     if is_motion and header["scheme"]["name"] != "implicit_euler":
         unsupported.append("scheme " + header["scheme"]["name"])
-    say({"protocol": 1, "name": "reference", "version": "1", "method": "implicit Euler" if is_motion else "Newton",
-         "settings": {}, "unsupported": unsupported})
+    say({"protocol": 1, "name": "reference", "version": "1", "settings": {},
+         "method": "implicit Euler" if is_motion else "Newton", "unsupported": unsupported})
     scene = Scene(header, arrays)
     begin = time.perf_counter()
     frames = move(scene) if is_motion else [(0.0, come_to_rest(scene))]
     for number, (t, u) in enumerate(frames):
-        say({"frame": number, "time": t, "seconds": time.perf_counter() - begin, "steps": max(number, 0 if is_motion else 1),
-             "at_rest": True, "has": "displacements", "nodes": scene.body.n}, u)
+        say({"frame": number, "time": t, "seconds": time.perf_counter() - begin,
+             "steps": number if is_motion else 1, "at_rest": True, "has": "displacements",
+             "nodes": scene.body.n}, u)
     say({"end": True})
 
 

@@ -46,15 +46,30 @@ void add_law(Array& array, const msm::SpringLaw& law) {
   array.add({law.kind == msm::LawKind::power_log ? 1. : 0., law.parameter});
 }
 
-template<class Terms>
-Array volume_terms(const Terms& terms, std::size_t n_nodes) {
-  Array array{n_nodes + 3};
-  for (const auto& term : terms) {
-    array.add_nodes(term.nodes);
-    array.add({term.stiffness * pascals, term.rest_volume * metres * metres * metres,
-               term.is_logarithmic ? 1. : 0.});
+/// k_v, volume at rest, whether it is logarithmic: of a cell or of a node's tetrahedra.
+template<class Term>
+void add_volume_law(Array& array, const Term& term) {
+  array.add(
+      {term.stiffness * pascals, term.rest_volume * metres * metres * metres, term.is_logarithmic ? 1. : 0.});
+}
+
+void add_volume_terms(Message& message, const msm::Lattice& lattice) {
+  Array hexahedra{11}, patches{3}, tetrahedra{5};
+  for (const msm::VolumeCell& cell : lattice.volume_cells) {
+    hexahedra.add_nodes(cell.nodes);
+    add_volume_law(hexahedra, cell);
   }
-  return array;
+  for (std::size_t p = 0; p < lattice.volume_patches.size(); ++p) {
+    const msm::VolumePatch& patch = lattice.volume_patches[p];
+    add_volume_law(patches, patch);
+    for (const std::array<int, 4>& places : patch.tetrahedra) {
+      tetrahedra.add({double(p)});
+      for (const int place : places) tetrahedra.add({double(patch.nodes[cases::index(place)])});
+    }
+  }
+  message.add("volume_hexahedra", hexahedra);
+  message.add("volume_patches", patches);
+  message.add("volume_patch_tetrahedra", tetrahedra);
 }
 
 void add_lattice(Message& message, const msm::Lattice& lattice) {
@@ -79,12 +94,11 @@ void add_lattice(Message& message, const msm::Lattice& lattice) {
   message.add("springs", springs);
   message.add("midlines", midlines);
   message.add("biquadratic_tetrahedra", tetrahedra);
-  message.add("volume_hexahedra", volume_terms(lattice.volume_cells, 8));
-  message.add("volume_tetrahedra", volume_terms(lattice.volume_tetrahedra, 4));
+  add_volume_terms(message, lattice);
 }
 
 void add_mesh(Message& message, const cases::Scene& scene) {
-  Array nodes{3}, cells{scene.mesh.cells.size() > 0 ? scene.mesh.cells[0].size() : 8}, materials{4};
+  Array nodes{3}, cells{scene.mesh.shape == cases::CellShape::tetrahedron ? 4u : 8u}, materials{4};
   for (const Eigen::Vector3d& x : scene.mesh.nodes)
     nodes.add({x.x() * metres, x.y() * metres, x.z() * metres});
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) cells.add_nodes(scene.mesh.cells[c]);

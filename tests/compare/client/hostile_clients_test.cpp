@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/solve/springs.hpp"
+#include "tests/support/scene_in_tetrahedra.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -52,6 +53,14 @@ std::string failure_of(const std::string& program, double seconds = 3) {
   return found.answer.converged() ? "" : found.answer.solution.message;
 }
 
+/// Says why nothing can be tested where the system refuses namespaces, as containers often do.
+bool are_clients_refused() {
+  static const std::string reason = failure_of("");
+  const bool are = reason.find("cannot confine a program") != std::string::npos;
+  if (are) WARN("nothing was checked: " + reason);
+  return are;
+}
+
 /// Processes of this system whose command line has a word.
 int n_processes_with(const std::string& word) {
   int n = 0;
@@ -66,6 +75,7 @@ int n_processes_with(const std::string& word) {
 } // namespace
 
 TEST_CASE("a client that hangs, crashes or speaks nonsense is a failed row that says why", "[long]") {
+  if (are_clients_refused()) return;
   const auto [what, program, reason] = GENERATE(table<const char*, const char*, const char*>({
       {"hangs before reading", "time.sleep(60)", "introducing itself: took longer than 3 s"},
       {"hangs after reading", "read(); time.sleep(60)", "introducing itself: took longer than 3 s"},
@@ -96,6 +106,7 @@ TEST_CASE("a client that hangs, crashes or speaks nonsense is a failed row that 
 }
 
 TEST_CASE("a client cannot write outside its folder, use the network, or leave processes behind") {
+  if (are_clients_refused()) return;
   const std::string place = (std::filesystem::temp_directory_path() / "springproof-outside").string();
   std::filesystem::remove(place);
   CHECK_THAT(failure_of("open('" + place + "', 'w')"), Catch::Contains("Read-only file system"));
@@ -112,6 +123,7 @@ TEST_CASE("a client cannot write outside its folder, use the network, or leave p
 }
 
 TEST_CASE("displacements in other axes or units are warned of") {
+  if (are_clients_refused()) return;
   const auto equilibrium = [](const std::string& changed) {
     std::optional<msm::DesignResult> design;
     const compare::Answer springs = compare::solve_springs(small_scene(), 1, design);
@@ -128,19 +140,44 @@ TEST_CASE("displacements in other axes or units are warned of") {
   CHECK_FALSE(equilibrium("(1000 * a[0], 1000 * a[1], 1000 * a[2])").warnings.empty());
 }
 
-TEST_CASE("the reference client has our own springs' equilibrium to 1e-9") {
-  const cases::Scene scene = small_scene();
+namespace {
+
+/// Largest difference of the reference client's equilibrium from our own springs', of the largest
+/// displacement.
+double difference_of_reference(const cases::Scene& scene) {
   std::optional<msm::DesignResult> design;
   const compare::Answer springs = compare::solve_springs(scene, 1, design);
+  REQUIRE(springs.converged());
   const ClientAnswer client = compare::ask_client(
       scene, {"reference", {python, SPRINGPROOF_SOURCE_DIR "/clients/reference/client.py"}}, {});
   INFO(client.answer.solution.message);
   REQUIRE(client.answer.converged());
+  CHECK(client.introduction->unsupported.empty());
   double largest = 0, difference = 0;
   for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
     largest = std::max(largest, springs.solution.displacement[n].norm());
     difference = std::max(difference,
                           (springs.solution.displacement[n] - client.answer.solution.displacement[n]).norm());
   }
-  CHECK(difference < 1e-9 * largest); // Newton's method stops at 1e-9 of the forces, or well below
+  return difference / largest;
+}
+
+} // namespace
+
+// Newton's method stops at 1e-9 of the forces, or well below.
+TEST_CASE("the reference client has our own springs' equilibrium to 1e-9", "[verification]") {
+  if (are_clients_refused()) return;
+  CHECK(difference_of_reference(small_scene()) < 1e-9);
+}
+
+TEST_CASE("so it has that of tetrahedra, whose volume terms are at nodes", "[verification]") {
+  if (are_clients_refused()) return;
+  const auto design = GENERATE(as<std::string>(), "moduli", "hybrid", "matched", "biquadratic");
+  INFO(design);
+  const cases::Case definition =
+      cases::read_case(SPRINGPROOF_SOURCE_DIR "/cases/thesis/linear_elastic/cube_shear_small.toml",
+                       {"body.cells=[2,2,2]", "material.poissons_ratio=0.3", "msm.design=" + design});
+  const cases::Scene scene = tetrahedra::make_scene(definition, cases::Element::p1);
+  CHECK(scene.mesh.shape == cases::CellShape::tetrahedron);
+  CHECK(difference_of_reference(scene) < 1e-9);
 }
