@@ -95,6 +95,10 @@ export function answer({ header, arrays }, step, positions) {
     step(dt, t);
     spent.seconds += (performance.now() - start) / 1000;
     ++spent.steps;
+    if (!positions().every(Number.isFinite)) {
+      say({ error: `a node is at no finite place after ${t} s` });
+      process.exit();
+    }
   };
   const frame = (number, time, more, values = positions()) =>
     say({ frame: number, time, ...spent, has: "positions", nodes: n, ...more }, values);
