@@ -46,11 +46,11 @@ TEST_CASE("gates as text: a line each with its kind, warnings beneath, and count
   const std::string text = written(compare::write_gates_text, mixed());
   CHECK_THAT(text,
              Catch::Contains(
-                 "met    published  cube: L error_percent = -10 %, in [-11, -9] (reference +- 1.8 %)\n"
+                 "met    published   cube: L error_percent = -10 %, in [-11, -9] (reference +- 1.8 %)\n"
                  "       warning: the interval is narrower than the reference's own error bar, +- 1.8 %\n"
-                 "FAILED regression cube: L msm = 9 mm, not in [9.5, 10]\n"
-                 "FAILED exact      cube: M fem: there is no such measure\n"));
-  CHECK_THAT(text, Catch::Contains("FAILED case       second: it expects nothing"));
+                 "FAILED regression  cube: L msm = 9 mm, not in [9.5, 10]\n"
+                 "FAILED exact       cube: M fem: there is no such measure\n"));
+  CHECK_THAT(text, Catch::Contains("FAILED case        second: it expects nothing"));
   CHECK_THAT(text, Catch::EndsWith("GATES FAILED: exact 0 of 1, published 1 of 1, regression 0 of 1\n"));
 }
 
