@@ -142,7 +142,11 @@ DesignOnMesh look_at(const cases::Scene& scene) {
   found.springs = springs_text(design);
   found.warnings = design.warnings;
   found.materials = look_at_materials(scene, design.springs, lattice);
-  if (is_matrix_made(scene.mesh)) found.motions = free_motions(lattice);
+  try {
+    if (is_matrix_made(scene.mesh)) found.motions = free_motions(lattice);
+  } catch (const cases::SolveError& error) {
+    found.warnings.push_back(std::string("zero modes are not known: ") + error.what());
+  }
   return found;
 }
 

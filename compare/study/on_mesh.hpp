@@ -37,7 +37,7 @@ struct DesignOnMesh {
   std::string refusal{}; ///< why it does not apply; then the rest is empty
   std::string springs{}; ///< as springs_text() has them
   std::vector<MaterialOnMesh> materials{};
-  std::optional<FreeMotions> motions{}; ///< absent for a grid that is too large
+  std::optional<FreeMotions> motions{}; ///< absent without a matrix, and where they are not found
   std::vector<std::string> warnings{};
 };
 

@@ -5,6 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <cmath>
+#include <numeric>
+#include <random>
 
 namespace springproof::msm {
 
@@ -27,28 +29,36 @@ Eigen::Matrix<double, 3, 6> strained(const Vector3d& x) {
 /// have no forces under uniform strains.
 constexpr double small_shift = 1e-10;
 
-/// A point moves if its motion is larger than this, over the largest; the rounds below leave 1e-8 of others.
+/// A point moves if its motion is larger than this, over the largest; rounding leaves 1e-8 of others.
 constexpr double moves = 1e-4;
 
-/// The size of each point's motions beside the rigid ones of most points, which leave the smallest sum of
-/// sizes: least squares in rounds, each point divided by the size it had.
+/// The points that move, seen from most of the points: three of them are taken at random, again and again,
+/// and the rigid motions that these three have are left out of all. The three from which fewest points move
+/// are kept (Fischler & Bolles 1981). Few points that swing far from the others would turn least squares.
 /// @param rigid  six columns, as motions: degree of freedom 3*point + component
-Vector beside_most(const Eigen::MatrixXd& rigid, const Eigen::MatrixXd& motions) {
-  constexpr int rounds = 60;
-  constexpr double least = 1e-8; // of the largest size
+std::vector<int> moving_points(const Eigen::MatrixXd& rigid, const Eigen::MatrixXd& motions) {
+  constexpr int n_trials = 100;
   const Eigen::Index n_points = rigid.rows() / 3;
-  Vector sizes = Vector::Ones(n_points);
-  for (int round = 0; round < rounds; ++round) {
-    Eigen::MatrixXd square = Eigen::MatrixXd::Zero(6, 6), right = Eigen::MatrixXd::Zero(6, motions.cols());
-    for (Eigen::Index p = 0; p < n_points; ++p) {
-      const double weight = 1 / std::max(sizes[p], least * sizes.maxCoeff());
-      square += weight * rigid.middleRows<3>(3 * p).transpose() * rigid.middleRows<3>(3 * p);
-      right += weight * rigid.middleRows<3>(3 * p).transpose() * motions.middleRows<3>(3 * p);
+  std::vector<int> fewest(index(n_points));
+  std::iota(fewest.begin(), fewest.end(), 0);
+  std::mt19937 generator;
+  for (int trial = 0; trial < n_trials; ++trial) {
+    std::vector<Eigen::Index> dofs;
+    for (int corner = 0; corner < 3; ++corner) {
+      const auto point = static_cast<Eigen::Index>(generator() % index(n_points));
+      for (Eigen::Index c = 0; c < 3; ++c) dofs.push_back(3 * point + c);
     }
-    const Eigen::MatrixXd rest = motions - rigid * square.completeOrthogonalDecomposition().solve(right);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(rigid(dofs, Eigen::all));
+    if (factors.rank() < 6) continue; // they are on a line
+    const Eigen::MatrixXd rest = motions - rigid * factors.solve(motions(dofs, Eigen::all));
+    Vector sizes(n_points);
     for (Eigen::Index p = 0; p < n_points; ++p) sizes[p] = rest.middleRows<3>(3 * p).norm();
+    std::vector<int> moving;
+    for (Eigen::Index p = 0; p < n_points; ++p)
+      if (sizes[p] > moves * sizes.maxCoeff()) moving.push_back(static_cast<int>(p));
+    if (moving.size() < fewest.size()) fewest = moving;
   }
-  return sizes;
+  return fewest;
 }
 
 } // namespace
@@ -143,9 +153,7 @@ ZeroModes zero_modes(const Points& points, const Eigen::MatrixXd& null_space) {
   found.n = static_cast<int>(null_space.cols() -
                              Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(rigid).rank()); // 5 of a line
   if (found.n <= 0) return found;
-  const Vector sizes = beside_most(rigid, null_space);
-  for (Eigen::Index p = 0; p < n_points; ++p)
-    if (sizes[p] > moves * sizes.maxCoeff()) found.nodes.push_back(static_cast<int>(p));
+  found.nodes = moving_points(rigid, null_space);
   return found;
 }
 

@@ -68,42 +68,6 @@ TEST_CASE("one side alone is solved when asked for, and the other is skipped") {
   CHECK(document["cases"][0]["measures"][0]["msm"].is_number());
 }
 
-TEST_CASE(
-    "tetrahedra are solved by both models and vibrate; a design of one cell refuses them, and nothing is no "
-    "number") {
-  const TemporaryFolder folder;
-  const std::string file = (folder.path / "case.toml").string();
-  std::ofstream(file)
-      << "schema = 1\nname = \"block\"\ndescription = \"two materials\"\n[body]\nshape = \"mesh\"\n"
-         "file = \""
-      << SPRINGPROOF_SOURCE_DIR
-      << "/tests/cases/mesh/files/gmsh_41_text.msh\"\n[material]\nmodel = \"linear_elastic\"\n"
-         "youngs_modulus = 0.3\npoissons_ratio = 0.3\n[[fixed]]\nregion = \"left\"\n[[load]]\n"
-         "kind = \"traction\"\nregion = \"right\"\nvalue = [0.001, 0, 0]\n[[measure]]\n"
-         "name = \"volume\"\nkind = \"volume\"\n";
-  check_refused("design --case " + file, "springproof design CASE");
-  const auto on_mesh = document_of("design --designs all --json " + file)["designs"];
-  CHECK(std::count_if(on_mesh.begin(), on_mesh.end(),
-                      [](const auto& design) { return !design.contains("refused"); }) == 7);
-  const auto ranked = document_of("run --designs all --json " + file)["cases"][0]["designs"];
-  REQUIRE(ranked.size() == on_mesh.size());
-  for (const auto& design : ranked)
-    CHECK(design["worst_error_percent"].is_number() == design["refused"].is_null()); // the same seven
-  CHECK(std::count_if(ranked.begin(), ranked.end(),
-                      [](const auto& design) { return design["refused"].is_null(); }) == 7);
-  CHECK_THAT(printed_by("design " + file), Catch::Contains("48 tetrahedra, 23 nodes"));
-  check_refused("design --young 0.3 " + file, "--young excludes case");
-  check_refused("run --set fem.element=\"q1\" " + file, "must be \"p2\" | \"p1\" | \"p2_p0\"");
-  CHECK_THAT(printed_by("eigen --set material.density=1000 " + file), !Catch::Contains("nan"));
-  CHECK_THAT(printed_by("run " + file), !Catch::Contains("nan"));
-  const auto document = document_of("run --json " + file);
-  for (const char* side : {"fem", "msm"}) {
-    CHECK(document["cases"][0][side]["status"] == "converged");
-    CHECK(document["cases"][0]["measures"][0][side].get<double>() ==
-          Approx(2).epsilon(0.02)); // hardly loaded
-  }
-}
-
 TEST_CASE("a broken case ends in exit status 2, one message and no files, even behind a good case") {
   const TemporaryFolder folder;
   const fs::path broken = folder.path / "broken.toml", out = folder.path / "out";
