@@ -4,6 +4,7 @@
 #include "cases/scene/scene.hpp"
 #include "mechanics/field_sums.hpp"
 #include "msm/direct/direct_system.hpp"
+#include "msm/direct/patched_system.hpp"
 #include "msm/grid/moving_grid.hpp"
 #include "msm/relaxation/relaxation.hpp"
 
@@ -47,7 +48,9 @@ Model::Model(const cases::Scene& scene, const SpringBody& springs, const ModelOp
       problem_.force.clear(); // the grid has its own
   } else {
     problem_.lattice = make_lattice(scene.mesh, springs);
-    system_ = make_direct_system(problem_);
+    const bool is_iterated = options.path == Path::automatic && takes_patched_system(problem_.lattice) &&
+                             problem_.lattice.volume_patches.size() >= patches_iterated_from;
+    system_ = is_iterated ? make_patched_system(problem_) : make_direct_system(problem_);
   }
 }
 

@@ -40,11 +40,8 @@ Points positions(const Problem& problem, const Vector& displacement) {
 class DirectSystem : public SpringSystem {
  public:
   explicit DirectSystem(const Problem& problem)
-      : problem_(problem), tangent_(problem.lattice, problem.is_constrained),
-        load_(on_free(problem, problem.on_all_points(problem.force))) {
-    const OneThread one;
-    factorisation_.analyse(tangent_.assemble(problem.lattice.rest, Clamp::no));
-  }
+      : problem_(problem), n_free_(static_cast<Eigen::Index>(msm::n_unknowns(problem))),
+        load_(on_free(problem, problem.on_all_points(problem.force))) {}
 
   const Vector& load() const override { return load_; }
 
@@ -133,7 +130,7 @@ class DirectSystem : public SpringSystem {
 
   void move_supports(Vector& displacement, double load_factor) const override {
     if (!problem_.supports) return;
-    const Eigen::Index n = displacement.size() - tangent_.n_free();
+    const Eigen::Index n = displacement.size() - n_free_;
     displacement.tail(n) =
         to_vector(problem_, problem_.on_all_points(problem_.supports(load_factor))).tail(n);
   }
@@ -145,7 +142,8 @@ class DirectSystem : public SpringSystem {
   static constexpr double no_stiffness = 1e-290; ///< N/mm; what is below is lost in double precision
 
   const Problem& problem_;
-  Tangent tangent_;
+  Eigen::Index n_free_;
+  std::optional<Tangent> tangent_; ///< made when it is first asked for
   Vector load_, diagonal_;
   const Tangent::Matrix* matrix_ = nullptr; ///< the tangent, as it was assembled last
   Factorisation factorisation_;
@@ -178,7 +176,7 @@ class DirectSystem : public SpringSystem {
              double shift, Vector& step) override {
     if (!factorise(displacement, clamp, shift)) return false;
     const OneThread one;
-    step = with_supports(factorisation_.solve(residual.head(tangent_.n_free())));
+    step = with_supports(factorisation_.solve(residual.head(n_free_)));
     return step.allFinite() && step.dot(residual) > 0;
   }
 
@@ -186,7 +184,7 @@ class DirectSystem : public SpringSystem {
   Vector random_force(unsigned seed) const {
     std::mt19937 generator(seed);
     std::normal_distribution<double> normal;
-    Vector force(tangent_.n_free());
+    Vector force(n_free_);
     for (double& entry : force) entry = normal(generator);
     return force;
   }
@@ -201,7 +199,11 @@ class DirectSystem : public SpringSystem {
   bool factorise(const Vector& displacement, Clamp clamp, double shift) {
     if (factorised_ == std::tie(displacement, clamp, shift)) return is_definite_;
     const OneThread one;
-    matrix_ = &tangent_.assemble(positions(problem_, displacement), clamp);
+    if (!tangent_) {
+      tangent_.emplace(problem_.lattice, problem_.is_constrained);
+      factorisation_.analyse(tangent_->assemble(problem_.lattice.rest, Clamp::no));
+    }
+    matrix_ = &tangent_->assemble(positions(problem_, displacement), clamp);
     diagonal_ = matrix_->diagonal();
     ++work_.factorisations;
     factorised_.reset();
