@@ -89,7 +89,7 @@ class PatchProduct {
 
 Problem without_patches(const Problem& problem) {
   Problem springs{problem.mesh, {}, problem.force, problem.is_constrained, problem.supports};
-  springs.lattice = {problem.lattice.rest, problem.lattice.links, problem.lattice.volume_cells, {},
+  springs.lattice = {problem.lattice.rest,       problem.lattice.links,   problem.lattice.volume_cells, {},
                      problem.lattice.tetrahedra, problem.lattice.midlines};
   return springs;
 }
@@ -144,11 +144,10 @@ class PatchedSystem : public SpringSystem {
   std::optional<Mode> lowest_mode(const Vector& displacement) override {
     if (!has_factor()) return whole_->lowest_mode(displacement);
     linearise(displacement, Clamp::no);
-    return mechanics::grid::lowest_mode(
-        {[&](const Vector& in, Vector& out) { product(in, 0, out); },
-         [&](const Vector& in, Vector& out) { precondition(in, out); },
-         [](const Vector& a, const Vector& b) { return a.dot(b); }, 1, 1e-8},
-        random_force());
+    return mechanics::grid::lowest_mode({[&](const Vector& in, Vector& out) { product(in, 0, out); },
+                                         [&](const Vector& in, Vector& out) { precondition(in, out); },
+                                         [](const Vector& a, const Vector& b) { return a.dot(b); }, 1, 1e-8},
+                                        random_force());
   }
 
  private:
