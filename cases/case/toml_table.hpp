@@ -9,7 +9,7 @@
 #include <toml++/toml.h>
 
 /// Typed access to a TOML document whose every failure is an InputError that says where, which key, which
-/// value, and what is allowed. Only the readers of case files include this.
+/// value, and what is allowed. Only readers of TOML files include this.
 namespace springproof::cases {
 
 /// Parses TOML 1.0 with at most 100 points a line.  @param path  its name in messages   @throws InputError

@@ -21,6 +21,7 @@ void add_export_command(CLI::App& program, Action& chosen);
 void add_gate_command(CLI::App& program, Action& chosen);
 void add_interact_command(CLI::App& program, Action& chosen);
 void add_judge_command(CLI::App& program, Action& chosen);
+void add_league_command(CLI::App& program, Action& chosen);
 void add_merge_command(CLI::App& program, Action& chosen);
 void add_new_command(CLI::App& program, Action& chosen);
 void add_run_command(CLI::App& program, Action& chosen);

@@ -15,9 +15,10 @@ namespace springproof::compare {
 
 namespace {
 
-/// Time of a step that keeps up with 60 pictures a second, ms.
-double real_time(double step) {
-  return 1e3 * step;
+/// A step that takes no longer than it advances keeps up with real time.
+void say_whether_in_time(JudgedRow& row, const cases::Scene& scene, const ClientBudget& budget) {
+  const double step = scene.definition.dynamics ? scene.definition.dynamics->step : budget.step;
+  if (row.milliseconds_a_step) row.keeps_60_hz = *row.milliseconds_a_step <= 1e3 * step;
 }
 
 /// The error of largest size, of the measures that have one.
@@ -91,6 +92,49 @@ JudgedRow client_row(const cases::Scene& scene, const Answers& fem, const Client
   return row;
 }
 
+} // namespace
+
+std::string JudgedRow::status() const {
+  if (!failure.empty()) return "failed";
+  return is_at_rest ? "answered" : "moving";
+}
+
+bool JudgedCase::has_failed() const {
+  return std::any_of(rows.begin(), rows.end(),
+                     [](const JudgedRow& row) { return row.status() != "answered"; });
+}
+
+Judge::Judge(cases::Scene scene, int meshes) : scene_(std::move(scene)) {
+  if (scene_.definition.measures.empty())
+    throw cases::InputError(scene_.definition.file + ": judge: the case has no [[measure]]; add one");
+  fem_ = solve_reference(scene_, meshes);
+}
+
+JudgedCase Judge::own(const ClientBudget& budget) const {
+  JudgedCase judged{scene_.definition.name, scene_.definition.dynamics.has_value(), false, {}};
+  judged.rows = {fem_row(scene_, fem_), springs_row(scene_, fem_)};
+  for (JudgedRow& row : judged.rows) {
+    say_whether_in_time(row, scene_, budget);
+    for (const MeasuredValue& one : row.measures)
+      judged.is_converged = judged.is_converged || one.fem_limit.has_value();
+  }
+  return judged;
+}
+
+JudgedRow Judge::ask(const Client& client, const ClientBudget& budget) const {
+  JudgedRow row = client_row(scene_, fem_, client, budget);
+  say_whether_in_time(row, scene_, budget);
+  return row;
+}
+
+JudgedCase judge_clients(const cases::Scene& scene, const std::vector<Client>& clients,
+                         const ClientBudget& budget, int meshes) {
+  const Judge judge(scene, meshes);
+  JudgedCase judged = judge.own(budget);
+  for (const Client& client : clients) judged.rows.push_back(judge.ask(client, budget));
+  return judged;
+}
+
 Json row_to_json(const JudgedRow& row) {
   Json json{{"model", row.model},
             {"status", row.status()},
@@ -103,6 +147,7 @@ Json row_to_json(const JudgedRow& row) {
             {"rests_after", row.rests_after},
             {"reason", text_or_null(row.failure)},
             {"command", text_or_null(row.command)}};
+  if (!row.chosen.empty()) json["chosen"] = row.chosen;
   if (row.client) {
     json["client"] = {{"name", row.client->name},
                       {"version", row.client->version},
@@ -122,34 +167,17 @@ Json row_to_json(const JudgedRow& row) {
   return json;
 }
 
-} // namespace
-
-std::string JudgedRow::status() const {
-  if (!failure.empty()) return "failed";
-  return is_at_rest ? "answered" : "moving";
-}
-
-bool JudgedCase::has_failed() const {
-  return std::any_of(rows.begin(), rows.end(),
-                     [](const JudgedRow& row) { return row.status() != "answered"; });
-}
-
-JudgedCase judge_clients(const cases::Scene& scene, const std::vector<Client>& clients,
-                         const ClientBudget& budget, int meshes) {
-  if (scene.definition.measures.empty())
-    throw cases::InputError(scene.definition.file + ": judge: the case has no [[measure]]; add one");
-  const Answers fem = solve_reference(scene, meshes);
-  JudgedCase judged{scene.definition.name, scene.definition.dynamics.has_value(), false, {}};
-  judged.rows.push_back(fem_row(scene, fem));
-  judged.rows.push_back(springs_row(scene, fem));
-  for (const Client& client : clients) judged.rows.push_back(client_row(scene, fem, client, budget));
-  const double step = scene.definition.dynamics ? scene.definition.dynamics->step : budget.step;
-  for (JudgedRow& row : judged.rows) {
-    if (row.milliseconds_a_step) row.keeps_60_hz = *row.milliseconds_a_step <= real_time(step);
-    for (const MeasuredValue& one : row.measures)
-      judged.is_converged = judged.is_converged || one.fem_limit.has_value();
-  }
-  return judged;
+std::vector<std::string> notes_of(const JudgedRow& row) {
+  std::vector<std::string> notes;
+  if (!row.failure.empty()) notes.push_back(fmt::format("{} failed: {}", row.model, row.failure));
+  for (const std::string& warning : row.warnings) notes.push_back(fmt::format("{}: {}", row.model, warning));
+  if (!row.client) return notes;
+  const Introduction& client = *row.client;
+  notes.push_back(fmt::format("{}: {} {}, {}; {}", row.model, client.name, client.version, client.method,
+                              client.settings));
+  if (!client.unsupported.empty())
+    notes.push_back(fmt::format("{} ignores {}", row.model, fmt::join(client.unsupported, "; ")));
+  return notes;
 }
 
 Json judged_to_json(const std::vector<JudgedCase>& cases, const ClientBudget& budget) {
@@ -173,19 +201,8 @@ void write_judged_text(std::ostream& out, const JudgedCase& judged) {
                                      "rests~s=rests_after{:.2f} ms~a~step=milliseconds_a_step{:.2f} "
                                      "60~Hz=keeps_60_hz ignores=ignored");
   write_table(out, columns, json_list(judged.rows, row_to_json));
-  for (const JudgedRow& row : judged.rows) {
-    if (!row.failure.empty()) write_wrapped(out, fmt::format("    {} failed: {}", row.model, row.failure), 6);
-    for (const std::string& warning : row.warnings)
-      write_wrapped(out, fmt::format("    {}: {}", row.model, warning), 6);
-    if (!row.client) continue;
-    const Introduction& client = *row.client;
-    write_wrapped(out,
-                  fmt::format("    {}: {} {}, {}; {}", row.model, client.name, client.version, client.method,
-                              client.settings),
-                  6);
-    if (!client.unsupported.empty())
-      write_wrapped(out, fmt::format("    {} ignores {}", row.model, fmt::join(client.unsupported, "; ")), 6);
-  }
+  for (const JudgedRow& row : judged.rows)
+    for (const std::string& note : notes_of(row)) write_wrapped(out, "    " + note, 6);
 }
 
 void write_judged_csv(std::ostream& out, const std::vector<JudgedCase>& cases) {

@@ -16,6 +16,7 @@ struct JudgedRow {
   std::string model;                    ///< "finite elements", "springs" or the client's name
   std::optional<Introduction> client{}; ///< of a client that came to it
   std::string command{};                ///< of a client
+  std::string chosen{};                 ///< of a league: "default", or how the settings were found
   std::string failure{};                ///< why there is no answer; empty where there is one
   std::optional<double> worst{};        ///< largest |error| of the measures with its sign, percent
   std::optional<double> bar{};          ///< points that the limit leaves of it
@@ -40,12 +41,29 @@ struct JudgedCase {
   bool has_failed() const;
 };
 
-/// Solves the finite elements once, our springs, and asks every client.
-/// @param meshes  meshes of the finite elements' limit, as in Request
-/// @throws cases::InputError when the case has no measure, or no springs
+/// A case whose finite elements are solved, once, for rows to be held against them.
+class Judge {
+ public:
+  /// @param meshes  meshes of the finite elements' limit, as in Request
+  /// @throws cases::InputError when the case has no measure
+  Judge(cases::Scene scene, int meshes);
+  /// The finite elements and our springs.
+  /// @throws cases::InputError when there are no springs
+  JudgedCase own(const ClientBudget& budget) const;
+  JudgedRow ask(const Client& client, const ClientBudget& budget) const;
+
+ private:
+  cases::Scene scene_;
+  Answers fem_;
+};
+
+/// Own rows, and one for each client.
 JudgedCase judge_clients(const cases::Scene& scene, const std::vector<Client>& clients,
                          const ClientBudget& budget, int meshes);
 
+Json row_to_json(const JudgedRow& row);
+/// Warnings of a row, what its client says of itself, and why there is no answer.
+std::vector<std::string> notes_of(const JudgedRow& row);
 Json judged_to_json(const std::vector<JudgedCase>& cases, const ClientBudget& budget);
 void write_judged_text(std::ostream& out, const JudgedCase& judged);
 void write_judged_csv(std::ostream& out, const std::vector<JudgedCase>& cases);

@@ -38,13 +38,13 @@ function typeset(text) {
   return parts.concat(text.slice(from)).filter((part) => part !== "");
 }
 const formulations = { log_strain: "logarithmic strain", small_strain: "small strain", q1_bbar: "Q1 B-bar", q1_p0: "Q1/P0",
-  q1_wilson: "Q1 Wilson", q2_p1: "Q2/P1", q1: "Q1", q2: "Q2", saint_venant_kirchhoff: "St. Venant–Kirchhoff" };
+  q1_wilson: "Q1 Wilson", q2_p1: "Q2/P1", q1: "Q1", q2: "Q2", p1: "P1", p2: "P2", p2_p0: "P2/P0", saint_venant_kirchhoff: "St. Venant–Kirchhoff" };
 // What solvers say, in fewer words.
 const solver_words = (text) => text.replace(/(springs: )?mass-spring equilibrium: /g, "springs: ")
   .replace(/no equilibrium was found beyond this load \(reached: ([.\d]+) of the load\)/g,
     (_, reached) => `no equilibrium beyond ${Math.round(100 * reached)} % of the load`);
 // The program's own names in words; names of files stay.
-const in_words = (text) => solver_words(text).replace(/\b(log_strain|small_strain|saint_venant_kirchhoff|q[12](_\w+)?)\b/g,
+const in_words = (text) => solver_words(text).replace(/\b(log_strain|small_strain|saint_venant_kirchhoff|[pq][12](_\w+)?)\b/g,
   (name) => formulations[name] || name)
   .replace(/\b(fem|msm)_/g, (_, side) => side.toUpperCase() + " ")
   .replace(/\b(?!(?:alpha|beta|L|k|C)_(?:[a-z]|\d+)\b)([A-Za-z]\w*)\b(?!\.\w)/g, (name) => name.replace(/_/g, " "));

@@ -11,7 +11,7 @@ function about() {
     report.licences.map((text) => make("pre", null, text)))];
 }
 
-const page_sections = [["verdict", "Verdict", verdict], ["skin", "Skin", skin], ["landmarks", "Landmarks", landmarks],
+const page_sections = [["league", "League", league], ["verdict", "Verdict", verdict], ["skin", "Skin", skin], ["landmarks", "Landmarks", landmarks],
   ["measures", "Measures", measures], ["motion", "Motion", motion], ["springs", "Springs", case_springs],
   ["choose", "Which springs", choose], ["designs", "Designs", designs], ["bodies", "Bodies", bodies],
   ["ranking", "Designs compared", ranked], ["tables", "Tables", tables],
