@@ -4,7 +4,11 @@ import load from "mujoco-js";
 import { answer, factor, heldNodes, readScene, say, sixTetrahedra } from "../protocol.mjs";
 
 const { values: options } = parseArgs({
-  options: { damping: { type: "string", default: "0" }, substeps: { type: "string", default: "1" } },
+  options: {
+    damping: { type: "string", default: "0" }, // of the elasticity, s
+    drag: { type: "string", default: "0" }, // of the nodes' slides, 1/s
+    substeps: { type: "string", default: "1" },
+  },
 });
 const mujoco = await load();
 const scene = readScene();
@@ -21,7 +25,6 @@ const isFirst = (x, i) => i % 4 > 1 || x === materials.at(0, i % 4);
 ignored(!materials.values.every(isFirst), "all materials but the first");
 ignored(!mass.values.some((m) => m > 0), "no masses: every node has 1 g");
 ignored(header.stiffness_damping > 0, "stiffness_damping");
-ignored(arrays.mass_damping.values.some((c) => c > 0), "mass_damping");
 ignored(header.question === "motion", `scheme ${header.scheme?.name}`);
 
 const cells = [];
@@ -31,12 +34,14 @@ for (let c = 0; c < (arrays.hexahedra?.rows ?? 0); ++c)
 
 // Each node that is not pinned is a body of three slides, whose mass is set below.
 const description = `<mujoco>
-  <option timestep="${header.step / substeps}" gravity="0 0 0" integrator="implicitfast" solver="CG" tolerance="1e-8"
-    ${header.iterations ? `iterations="${header.iterations}"` : ""}><flag autoreset="disable"/></option>
+  <option timestep="${header.step / substeps}" gravity="0 0 0" integrator="implicitfast" solver="CG"
+    tolerance="1e-8" ${header.iterations ? `iterations="${header.iterations}"` : ""}><flag autoreset="disable"/></option>
   <size memory="500M"/>
-  <worldbody><flexcomp name="body" type="direct" dim="3" mass="1" radius="1e-6" point="${[...nodes.values].join(" ")}"
+  <worldbody><flexcomp name="body" type="direct" dim="3" mass="1" radius="1e-6"
+    point="${[...nodes.values].join(" ")}"
     element="${cells.join(" ")}"><edge equality="false"/>
-    <elasticity young="${materials.at(0, 0)}" poisson="${materials.at(0, 1)}" damping="${Number(options.damping)}"/>
+    <elasticity young="${materials.at(0, 0)}" poisson="${materials.at(0, 1)}"
+      damping="${Number(options.damping)}"/>
     <contact contype="0" conaffinity="0" selfcollide="none" internal="false"/>
     <pin id="${[...held.whole].join(" ")}"/></flexcomp></worldbody></mujoco>`;
 mujoco.FS.writeFile("/body.xml", description); // in its own memory
@@ -44,13 +49,18 @@ const model = mujoco.MjModel.loadFromXML("/body.xml");
 const data = new mujoco.MjData(model);
 const bodyOf = Array.from(model.flex_vertbodyid);
 const massOf = (node) => mass.at(node, 0) || 1e-3;
-for (let i = 0; i < n; ++i) if (!held.whole.has(i)) model.body_mass[bodyOf[i]] = massOf(i);
+for (let i = 0; i < n; ++i) {
+  if (held.whole.has(i)) continue;
+  model.body_mass[bodyOf[i]] = massOf(i);
+  const slide = model.body_dofadr[bodyOf[i]];
+  model.dof_damping.fill(arrays.mass_damping.at(i, 0) + Number(options.drag) * massOf(i), slide, slide + 3);
+}
 mujoco.mj_setConst(model, data);
 mujoco.mj_forward(model, data);
 
 say({ protocol: 1, name: "MuJoCo", version: mujoco.mj_versionString(), method: "flex, St. Venant-Kirchhoff",
-      settings: { iterations: model.opt.iterations, damping: Number(options.damping), step: header.step,
-                  substeps }, unsupported });
+      settings: { iterations: model.opt.iterations, damping: Number(options.damping),
+                  drag: Number(options.drag), step: header.step, substeps }, unsupported });
 
 /// Loads and gravity as forces on the nodes' bodies.
 function push(t) {
