@@ -3,6 +3,7 @@
 #include "compare/solve/solve_jobs.hpp"
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -73,13 +74,15 @@ CLI::Option* add_workers_option(CLI::App& command, int& n_workers);
 /// --converge, of the commands that hold springs against a limit: the number of meshes, 0 without it.
 CLI::Option* add_converge_option(CLI::App& command, int& meshes);
 
-/// --msm-displacements and --interpolate, of the commands that take another simulator's results.
+/// --msm-displacements, --interpolate and --client, of the commands that take another simulator's results.
 struct DisplacementOptions {
-  std::string file; ///< empty: our springs are solved
+  std::string file;   ///< empty: our springs are solved, or a client is asked
+  std::string client; ///< NAME=COMMAND; empty: there is none
+  bool has_others() const { return !file.empty() || !client.empty(); }
   bool interpolate = false;
 };
-/// @return the first of the two
-CLI::Option* add_displacement_options(CLI::App& command, DisplacementOptions& options);
+/// @return --msm-displacements and --client
+std::array<CLI::Option*, 2> add_displacement_options(CLI::App& command, DisplacementOptions& options);
 
 /// --replay, of the commands that solve both models of what was pulled.
 CLI::Option* add_replay_option(CLI::App& command, std::string& recording);

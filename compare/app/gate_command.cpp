@@ -3,6 +3,7 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "cases/mesh/vtk_functions.hpp"
+#include "compare/client/ask_client.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/gates/bless.hpp"
 #include "compare/peers/external_side.hpp"
@@ -84,7 +85,7 @@ std::vector<Answers> solved_or_merged(const GateOptions& options, const std::vec
 
 int gate(const GateOptions& options) {
   Request request;
-  if (!options.displacements.file.empty()) request.only = cases::Side::fem;
+  if (options.displacements.has_others()) request.only = cases::Side::fem;
   request.meshes = options.meshes;
   // Every case is read, and its mesh and regions looked up, before any is solved.
   std::vector<Question> questions =
@@ -95,6 +96,7 @@ int gate(const GateOptions& options) {
   const auto external =
       read_external(questions, options.displacements.file,
                     options.displacements.interpolate ? Transfer::interpolated : Transfer::matched);
+  const auto client = read_client(questions, options.displacements.client);
   if (!options.shards.part.empty())
     return solve_shard(options.shards, questions, FileNames::of_cases, options.out, {options.workers});
   std::vector<Answers> answers = solved_or_merged(options, questions);
@@ -102,6 +104,7 @@ int gate(const GateOptions& options) {
   for (std::size_t q = 0; q < questions.size(); ++q) {
     cases::Scene& scene = questions[q].scene;
     if (external) answers[q] = with_displacements(std::move(answers[q]), scene, *external);
+    if (client) answers[q] = with_client(std::move(answers[q]), scene, *client);
     done.push_back(judge_or_bless(comparison_of(std::move(scene), std::move(answers[q])), options,
                                   options.json ? std::cerr : std::cout));
     if (!options.out.empty()) write_results(options.out, done);
@@ -117,7 +120,8 @@ void add_gate_command(CLI::App& program, Action& chosen) {
       program, chosen, "gate", "judge what each case expects: one line per gate", gate);
   command->add_option("case", options->files, "case files (TOML)")->required();
   add_set_option(*command, options->settings, "override a key: material.poissons_ratio=0.3");
-  add_displacement_options(*command, options->displacements);
+  // A shard's record, which anybody may have made, holds no command.
+  CLI::Option* client = add_displacement_options(*command, options->displacements)[1];
   add_converge_option(*command, options->meshes);
   add_replay_option(*command, options->replay);
   CLI::Option* junit = command->add_option("--junit", options->junit, "file for the verdicts as JUnit's XML");
@@ -132,7 +136,7 @@ void add_gate_command(CLI::App& program, Action& chosen) {
   CLI::Option* out = command->add_option("--out", options->out,
                                          "folder for results.json, comparison.csv and fields as .vtu; cases "
                                          "that it holds already are not solved again");
-  bless->excludes(add_shard_options(*command, options->shards, out, {junit, json, annotate, bless}));
+  bless->excludes(add_shard_options(*command, options->shards, out, {junit, json, annotate, bless, client}));
   add_workers_option(*command, options->workers);
 }
 

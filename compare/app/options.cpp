@@ -38,7 +38,7 @@ CLI::Option* add_converge_option(CLI::App& command, int& meshes) {
       ->check(CLI::Range(3, 9));
 }
 
-CLI::Option* add_displacement_options(CLI::App& command, DisplacementOptions& options) {
+std::array<CLI::Option*, 2> add_displacement_options(CLI::App& command, DisplacementOptions& options) {
   CLI::Option* file = command.add_option(
       "--msm-displacements", options.file,
       "another simulator's displacements in place of our springs: .csv (x,y,z,ux,uy,uz) or a VTK file");
@@ -46,7 +46,12 @@ CLI::Option* add_displacement_options(CLI::App& command, DisplacementOptions& op
       .add_flag("--interpolate", options.interpolate,
                 "they are on a mesh of their own: interpolate in its cells, and say what that may add")
       ->needs(file);
-  return file;
+  CLI::Option* client =
+      command
+          .add_option("--client", options.client,
+                      "NAME=COMMAND: a program that is asked in place of our springs, as judge asks it")
+          ->excludes(file);
+  return {file, client};
 }
 
 CLI::Option* add_replay_option(CLI::App& command, std::string& recording) {

@@ -2,6 +2,7 @@
 
 #include "cases/case/names.hpp"
 #include "cases/mesh/vtk_functions.hpp"
+#include "compare/client/ask_client.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/error_bars/convergence.hpp"
 #include "compare/peers/calculix.hpp"
@@ -264,7 +265,7 @@ void check_time_studies(const std::vector<Question>& questions) {
 
 int run_comparisons(const RunOptions& options) {
   const auto only =
-      options.displacements.file.empty() ? cases::value_of<cases::Side>(options.only) : cases::Side::fem;
+      options.displacements.has_others() ? cases::Side::fem : cases::value_of<cases::Side>(options.only);
   // All are read before any is solved: a mistake in the last costs nothing.
   std::vector<Question> questions =
       read_questions(options.files, options.settings, {only, options.meshes, options.peer});
@@ -277,6 +278,7 @@ int run_comparisons(const RunOptions& options) {
   const auto external =
       read_external(questions, options.displacements.file,
                     options.displacements.interpolate ? Transfer::interpolated : Transfer::matched);
+  const auto client = read_client(questions, options.displacements.client);
   const FinishedCases finished(options.out, questions);
   ProgressLine line(1);
   for (const Question& question : questions) line.expect(total_seconds(estimate(question)));
@@ -286,6 +288,7 @@ int run_comparisons(const RunOptions& options) {
   for (Question& question : questions) {
     Answers answers = answer(question, finished, line);
     if (external) answers = with_displacements(std::move(answers), question.scene, *external);
+    if (client) answers = with_client(std::move(answers), question.scene, *client);
     results.done.push_back(comparison_of(std::move(question.scene), std::move(answers)));
     const Comparison& comparison = results.done.back();
     failed = failed || !comparison.is_sound();
@@ -326,7 +329,8 @@ void add_run_command(CLI::App& program, Action& chosen) {
                     "solve a dynamic case once more with half its step: the error of time integration");
   command->add_option("--peer", options->peer, "ask another program about the finite elements' side too")
       ->check(CLI::IsMember({"ccx"}));
-  add_displacement_options(*command, options->displacements)->excludes(only);
+  for (CLI::Option* others : add_displacement_options(*command, options->displacements))
+    others->excludes(only);
   CLI::Option* out = command->add_option(
       "--out", options->out,
       "folder for results.json, comparison.csv and fields as .vtu (of several ranks: .pvtu); cases "
@@ -342,7 +346,8 @@ void add_run_command(CLI::App& program, Action& chosen) {
                      "worst errors")
       ->excludes("--only")
       ->excludes("--peer")
-      ->excludes("--msm-displacements");
+      ->excludes("--msm-displacements")
+      ->excludes("--client");
   add_replay_option(*command, options->replay)->excludes(command->get_option("--designs"));
   options->program = &program;
 }

@@ -216,4 +216,27 @@ ClientAnswer ask_client(const cases::Scene& scene, const Client& client, const C
   return found;
 }
 
+std::optional<Client> read_client(const std::vector<Question>& questions, const std::string& argument) {
+  if (argument.empty()) return std::nullopt;
+  if (n_mpi_ranks() > 1)
+    throw cases::InputError("--client: a client is asked on one rank; start the command without mpirun");
+  for (const Question& question : questions)
+    check_displacements_suffice(question.scene.definition, "--client");
+  return client_of(argument);
+}
+
+Answers with_client(Answers answers, const cases::Scene& scene, const Client& client) {
+  ClientAnswer found = ask_client(scene, client, {});
+  answers.msm = std::move(found.answer);
+  answers.design.reset();
+  answers.msm_source = client.name;
+  answers.msm_warnings = std::move(found.warnings);
+  if (!found.introduction) return answers;
+  const Introduction& is = *found.introduction;
+  answers.msm_source = fmt::format("{} ({} {}, {})", client.name, is.name, is.version, is.method);
+  for (const std::string& ignored : is.unsupported)
+    answers.msm_warnings.push_back(fmt::format("{} ignores {}", client.name, ignored));
+  return answers;
+}
+
 } // namespace springproof::compare

@@ -43,4 +43,13 @@ struct ClientAnswer {
 /// @throws cases::InputError when no springs can be designed
 ClientAnswer ask_client(const cases::Scene& scene, const Client& client, const ClientBudget& budget);
 
+/// `--client` of commands that put its answers in place of our springs'.
+/// @param argument  empty: there is none
+/// @throws cases::InputError if it is no NAME=COMMAND, on several ranks, or if a measure of a case needs more
+/// than displacements
+std::optional<Client> read_client(const std::vector<Question>& questions, const std::string& argument);
+
+/// The answers with a client's in place of our springs', asked now in the default budget.
+Answers with_client(Answers answers, const cases::Scene& scene, const Client& client);
+
 } // namespace springproof::compare

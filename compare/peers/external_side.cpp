@@ -166,18 +166,22 @@ std::vector<GivenDisplacement> read_displacements(const std::string& path) {
   return is_csv ? read_displacement_csv(text, path) : read_displacement_vtk(text, path);
 }
 
+void check_displacements_suffice(const cases::Case& definition, const std::string& option) {
+  for (const cases::Measure& measure : definition.measures)
+    if (cases::is_of_fields(measure.kind))
+      throw cases::InputError(
+          measure.where,
+          fmt::format("kind is \"{}\", which displacements alone do not tell: leave it out beside {}",
+                      cases::name_of(measure.kind), option));
+}
+
 std::optional<ExternalDisplacements> read_external(const std::vector<Question>& questions,
                                                    const std::string& path, Transfer transfer) {
   if (path.empty()) return std::nullopt;
   if (questions.size() != 1)
     throw cases::InputError(
         fmt::format("--msm-displacements: belongs to one case, {} are given", questions.size()));
-  for (const cases::Measure& measure : questions.front().scene.definition.measures)
-    if (cases::is_of_fields(measure.kind))
-      throw cases::InputError(measure.where,
-                              fmt::format("kind is \"{}\", which displacements alone do not tell: leave it "
-                                          "out beside --msm-displacements",
-                                          cases::name_of(measure.kind)));
+  check_displacements_suffice(questions.front().scene.definition, "--msm-displacements");
   if (questions.front().scene.definition.dynamics)
     throw cases::InputError("--msm-displacements: displacements have no time, and this case has [dynamics]");
   const cases::Mesh& mesh = questions.front().scene.mesh;

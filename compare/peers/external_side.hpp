@@ -58,6 +58,11 @@ struct ExternalDisplacements {
   std::optional<cases::CellCloud> cells = {}; ///< between which it was interpolated
 };
 
+/// Checks that displacements alone tell every measure of a case.
+/// @param option  that brings them, for messages
+/// @throws InputError at a measure of stress, strain or forces
+void check_displacements_suffice(const cases::Case& definition, const std::string& option);
+
 /// Reads `--msm-displacements` for the one case that it belongs to, before anything is solved.
 /// @param path  empty: there are none
 /// @throws InputError as read_displacements() and match_nodes(), or if there are several cases; of results to

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <random>
 
 using namespace springproof;
 using compare::ClientAnswer;
@@ -120,6 +121,80 @@ TEST_CASE("a client cannot write outside its folder, use the network, or leave p
                            mark + "'], start_new_session=True)\nhello(); frame(x); say({'end': True})";
   CHECK(failure_of(fork).empty());
   CHECK(n_processes_with(mark + std::string(1, '\0')) == 0);
+}
+
+namespace {
+
+/// A right answer to small_scene(): the introduction, a frame of displacements that are all 0, the end.
+std::string right_answer(std::size_t n_nodes) {
+  return R"({"protocol": 1, "name": "x", "version": "1", "method": "none", )"
+         R"("settings": {"a": [1]}, "unsupported": []})"
+         "\n"
+         R"({"frame": 0, "time": 1.5, "seconds": 0.25, "steps": 10, "at_rest": true, )"
+         R"("has": "displacements", "nodes": )" +
+         std::to_string(n_nodes) + "}\n" + std::string(24 * n_nodes, '\0') + "{\"end\": true}\n";
+}
+
+/// Some bytes changed, left out, doubled or moved, or the rest cut off.
+std::string mutated(std::string bytes, std::mt19937& random) {
+  const auto below = [&](std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+  };
+  for (std::size_t change = 0; change <= below(4); ++change) {
+    const std::size_t at = below(bytes.size()),
+                      length = 1 + below(std::min<std::size_t>(16, bytes.size() - at));
+    switch (below(5)) {
+    case 0:
+      bytes[at] = static_cast<char>(below(256));
+      break;
+    case 1:
+      bytes[at] = "0123456789-.eE\"{}[]:,\n"[below(22)];
+      break;
+    case 2:
+      bytes.erase(at, length);
+      break;
+    case 3:
+      bytes.insert(at, bytes.substr(below(bytes.size()), length));
+      break;
+    default:
+      if (below(10) == 0) bytes.resize(at + 1);
+    }
+    if (bytes.empty()) bytes = "\n";
+  }
+  return bytes;
+}
+
+} // namespace
+
+TEST_CASE("a thousand mutated answers are answers with finite displacements or failed rows with a reason",
+          "[long]") {
+  if (are_clients_refused()) return;
+  const cases::Scene scene = small_scene();
+  compare::ClientBudget budget;
+  budget.start_seconds = budget.seconds = 20;
+  const std::size_t scene_bytes = compare::scene_message(scene, budget).size();
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "springproof-mutated-answer";
+  const std::string speak = fmt::format("head -c {} > /dev/null; cat '{}'", scene_bytes, file.string());
+  std::mt19937 random(41);
+  int n_answers = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const std::string right = right_answer(scene.mesh.nodes.size());
+    std::ofstream(file, std::ios::binary) << (i == 0 ? right : mutated(right, random));
+    const ClientAnswer found = compare::ask_client(scene, {"x", {"sh", "-c", speak}}, budget);
+    INFO("answer " << i << ": " << found.answer.solution.message);
+    if (i == 0) CHECK(found.answer.converged());
+    if (!found.answer.converged()) {
+      CHECK_FALSE(found.answer.solution.message.empty());
+      CHECK(found.answer.solve_seconds < 10); // each ends by itself: no answer is waited for
+      continue;
+    }
+    ++n_answers;
+    REQUIRE(found.answer.solution.displacement.size() == scene.mesh.nodes.size());
+    for (const Eigen::Vector3d& u : found.answer.solution.displacement) CHECK(u.allFinite());
+  }
+  std::filesystem::remove(file);
+  CHECK(n_answers > 100); // changes of names, and of displacements to others
+  CHECK(n_answers < 900);
 }
 
 TEST_CASE("displacements in other axes or units are warned of") {
