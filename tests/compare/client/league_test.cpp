@@ -1,0 +1,88 @@
+#include "compare/client/league.hpp"
+
+#include "cases/case/error.hpp"
+#include "tests/support/run_program.hpp"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <sstream>
+
+using namespace springproof;
+
+namespace {
+
+/// A client that shears the body by its first argument, and says that a step took its second, ms.
+const char* const shearing = R"(import json, struct, sys
+shear, milliseconds = (float(word) for word in (sys.argv[1:] + ["0", "1"])[:2])
+out = sys.stdout.buffer
+header = json.loads(sys.stdin.buffer.readline())
+raw = {e["name"]: sys.stdin.buffer.read(8 * e["shape"][0] * e["shape"][1]) for e in header["arrays"]}["nodes"]
+places = list(struct.unpack("<%dd" % (len(raw) // 8), raw))
+for node in range(0, len(places), 3): places[node] += shear * places[node + 2]
+def say(line, raw=b""): out.write(json.dumps(line).encode() + b"\n" + raw)
+say({"protocol": 1, "name": "shear", "version": "1", "method": "none", "settings": {}, "unsupported": []})
+say({"frame": 0, "time": 1, "seconds": milliseconds / 1000, "steps": 1, "at_rest": True, "has": "positions",
+     "nodes": len(places) // 3}, struct.pack("<%dd" % len(places), *places))
+say({"end": True})
+)";
+
+/// A block of 1 mm that is sheared by 0.027 about, and two clients, one of which is not there.
+std::string league_in(const TemporaryFolder& folder, const std::string& more = "") {
+  std::ofstream(folder.path / "shear.py") << shearing;
+  std::ofstream(folder.path / "block.toml")
+      << "schema = 1\nname = \"block\"\n[body]\nshape = \"box\"\nsize = [1, 1, 1]\ncells = [2, 2, 2]\n"
+         "[material]\nmodel = \"linear_elastic\"\nyoungs_modulus = 0.3\npoissons_ratio = 0.25\n"
+         "[[fixed]]\nregion = \"z-\"\n[[load]]\nregion = \"z+\"\nkind = \"traction\"\nvalue = [0.002, 0, 0]\n"
+         "[fem]\naccuracy = \"none\"\n[[measure]]\nname = \"top\"\nkind = \"displacement\"\nnode = \"x+ y+ "
+         "z+\"\n"
+         "component = \"x\"\n";
+  const std::string file = (folder.path / "league.toml").string();
+  std::ofstream(file) << "cases = [\"block.toml\"]\nmilliseconds_a_step = 5\n"
+                      << more
+                      << "[[client]]\nname = \"shear\"\ncommand = \"/usr/bin/python3 ./shear.py\"\n"
+                         "options = [\"0.5\", \"0.02\", \"0.027 50\"]\n"
+                         "[[client]]\nname = \"absent\"\ncommand = \"nothing\"\nneeds = [\"engine\"]\n";
+  return file;
+}
+
+} // namespace
+
+TEST_CASE("a league has a client's defaults and the nearest of its settings that are fast enough, and skips "
+          "who is not there") {
+  const TemporaryFolder folder;
+  const compare::League league = compare::read_league(league_in(folder));
+  std::vector<std::string> told;
+  const compare::LeagueTable table =
+      compare::play(league, [&](const std::string& what) { told.push_back(what); });
+  REQUIRE(table.cases.size() == 1);
+  const auto& rows = table.cases[0].rows;
+  REQUIRE(rows.size() == 4); // finite elements, springs, and two of the client
+  if (rows[2].failure.find("cannot confine a program") != std::string::npos) {
+    WARN("nothing was checked: " + rows[2].failure);
+    return;
+  }
+  CHECK(rows[2].chosen == "defaults");
+  CHECK(rows[2].worst == Approx(-100)); // it does not move
+  CHECK(rows[3].chosen == "best of 4: 0.02");
+  CHECK(std::abs(*rows[3].worst) < 60); // 0.027 would be nearer, and takes 50 ms a step
+  CHECK(told.size() == 5);
+  REQUIRE(table.skipped.size() == 1);
+  CHECK(table.skipped[0].name == "absent");
+
+  const auto document = compare::league_to_json(table, league);
+  CHECK(document["cases"][0]["rows"].size() == 4);
+  CHECK(document["cases"][0]["rows"][3]["chosen"] == rows[3].chosen);
+  CHECK(document["skipped"][0]["client"] == "absent");
+  std::ostringstream page;
+  compare::write_league_markdown(page, table, league);
+  CHECK_THAT(page.str(), Catch::Contains("## block") && Catch::Contains("| shear | best of 4: 0.02 |") &&
+                             Catch::Contains("absent was skipped"));
+}
+
+TEST_CASE("a league's file is refused with the place of what is wrong") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_WITH(compare::read_league(league_in(folder, "seconds = 0\n")),
+                    Catch::Contains("league.toml:3:11: seconds: is 0, must be a number above 0"));
+  CHECK_THROWS_WITH(compare::read_league(league_in(folder, "secnds = 3\n")), Catch::Contains("secnds"));
+  CHECK_THROWS_WITH(compare::read_league((folder.path / "none.toml").string()), Catch::Contains("none.toml"));
+}
