@@ -1,7 +1,7 @@
 // Rapier's soft bodies as a client of springproof: see README.md beside this file.
 import { parseArgs } from "node:util";
 import R from "@dimforge/rapier3d-compat";
-import { answer, heldNodes, readScene, say, sixTetrahedra } from "../protocol.mjs";
+import { answer, factor, heldNodes, readScene, say, sixTetrahedra } from "../protocol.mjs";
 
 const { values: options } = parseArgs({
   options: {
@@ -23,8 +23,10 @@ const unsupported = ["springs and their terms: it takes E and nu on tetrahedra"]
 const ignored = (is, what) => is && unsupported.push(what);
 ignored(arrays.hexahedra, "hexahedra: each is cut into 6 tetrahedra");
 ignored(held.partly > 0, `supports of single components (${held.partly} nodes)`);
-ignored(arrays.support_motion.rows > 0, "motion of supports");
-ignored(header.loads.length > 0, "loads on nodes");
+if (arrays.support_motion.values.some((x) => x !== 0)) {
+  say({ error: "this client does not move supports" });
+  process.exit(0);
+}
 const changes = ({ history }) => history.points.length > 0 || history.frequency !== 0;
 ignored(header.question === "motion" && header.gravity.some(changes), "histories of gravity");
 const isFirst = (x, i) => i % 4 === 3 || x === materials.at(0, i % 4);
@@ -62,4 +64,20 @@ const body = world.createSoftBody(description);
 say({ protocol: 1, name: "Rapier", version: R.version(), method: `${options.solver}, ${options.model}`,
       settings: { iterations: world.integrationParameters.numSolverIterations,
                   damping: material.elasticDampingRatio, step: header.step }, unsupported });
-answer(scene, () => world.step(), () => Float64Array.from(body.particlePositions()).subarray(0, 3 * n));
+
+/// Forces on nodes, which last until they are reset.
+function push(t) {
+  body.resetForces(false);
+  for (const { forces, history } of header.loads) {
+    const share = header.question === "motion" ? factor(history, t) : 1, rows = arrays[forces];
+    for (let row = 0; row < rows.rows; ++row) {
+      const [x, y, z] = [1, 2, 3].map((c) => share * rows.at(row, c));
+      body.addParticleForce(rows.at(row, 0), { x, y, z }, true);
+    }
+  }
+}
+
+answer(scene, (dt, t) => {
+  if (header.loads.length > 0) push(t);
+  world.step();
+}, () => Float64Array.from(body.particlePositions()).subarray(0, 3 * n));

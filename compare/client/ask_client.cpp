@@ -51,6 +51,7 @@ double number_at(const Json& object, const char* key, const std::string& stage) 
 
 Introduction introduction_of(const Json& hello) {
   const std::string stage = "its introduction";
+  if (hello.contains("error")) refuse_answer("it gave up: " + text_at(hello, "error", stage));
   const double protocol = number_at(hello, "protocol", stage);
   if (protocol != client_protocol)
     refuse_answer(fmt::format("{}: protocol is {:g}, must be {}", stage, protocol, client_protocol));

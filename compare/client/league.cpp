@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ostream.h>
+#include <set>
 
 namespace springproof::compare {
 
@@ -85,10 +86,13 @@ std::vector<JudgedRow> rows_of(const Judge& judge, const LeagueClient& client, c
 }
 
 std::string budget_text(const League& league) {
-  return fmt::format("Settings are searched for by trying them all; the best is the one with the smallest "
-                     "worst error whose step takes at most {:.3g} ms. A body has {:g} s to come to rest, an "
-                     "answer {:g} s of wall-clock time.",
-                     league.most_milliseconds, league.budget.model_time, league.budget.seconds);
+  return fmt::format(
+      "Settings are searched for by trying them all; the best is the one with the smallest "
+      "worst error whose step takes at most {:.3g} ms. A body has {:g} s to come to rest, an "
+      "answer {:g} s of wall-clock time. An engine that is given the springs of the row above and "
+      "errs otherwise has not brought them to equilibrium; a smaller error is then one of two that "
+      "cancel.",
+      league.most_milliseconds, league.budget.model_time, league.budget.seconds);
 }
 
 std::string in_cell(const Json& value, const char* format) {
@@ -156,13 +160,15 @@ void write_league_markdown(std::ostream& out, const LeagueTable& table, const Le
         return in_cell(json.value(key, Json()), format);
       };
       fmt::print(out, "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", cell("model"), cell("chosen"),
-                 row.failure.empty() ? cell("error_percent", "{:+.2f}") : "failed", cell("error_uncertainty"),
+                 row.failure.empty() ? cell("error_percent") : "failed", cell("error_uncertainty"),
                  cell("at"), cell("volume_percent"), row.is_at_rest ? cell("rests_after") : "moves",
                  cell("milliseconds_a_step"), cell("keeps_60_hz"), cell("ignored", "{:.0f}"));
     }
     fmt::print(out, "\n");
+    std::set<std::string> printed; // both rows of a client may have the same
     for (const JudgedRow& row : judged.rows)
-      for (const std::string& note : notes_of(row)) fmt::print(out, "- {}\n", in_cell(note, ""));
+      for (const std::string& note : notes_of(row))
+        if (printed.insert(note).second) fmt::print(out, "- {}\n", in_cell(note, ""));
   }
 }
 

@@ -17,7 +17,7 @@ function league_chart(one) {
 
 function league_table(one, index) {
   const rows = one.rows.map((r) => row([row_head([r.model, r.chosen && reason_of(r.chosen), r.reason && reason_of(r.reason)]),
-    cell(r.status === "failed" ? "failed" : [signed(r.error_percent), missing(r.error_uncertainty) ? "" :
+    cell(r.status === "failed" ? "failed" : [number(r.error_percent), missing(r.error_uncertainty) ? "" :
       ` ± ${number(r.error_uncertainty)}`]), text_cell(r.at || "–"), cell(number(r.volume_percent)),
     cell(r.status === "moving" ? "moves" : number(r.rests_after)), cell(general(r.milliseconds_a_step, 3)),
     text_cell(missing(r.keeps_60_hz) ? "–" : r.keeps_60_hz ? "yes" : "no"),
