@@ -53,6 +53,9 @@ std::string line_of(const RunOptions& run, const cases::Case& definition,
     if (std::none_of(left_out.begin(), left_out.end(),
                      [&](const std::string& beginning) { return setting.rfind(beginning, 0) == 0; }))
       words.insert(words.end(), {"--set", setting});
+  const bool is_one_side = std::find(more.begin(), more.end(), "--only") != more.end();
+  if (!run.displacements.client.empty() && !is_one_side)
+    words.insert(words.end(), {"--client", run.displacements.client});
   words.insert(words.end(), more.begin(), more.end());
   return shell_line(words);
 }
