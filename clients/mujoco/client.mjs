@@ -38,7 +38,8 @@ for (let c = 0; c < (arrays.hexahedra?.rows ?? 0); ++c)
 // Each node that is not pinned is a body of three slides, whose mass is set below.
 const description = `<mujoco>
   <option timestep="${header.step / substeps}" gravity="0 0 0" integrator="implicitfast" solver="CG"
-    tolerance="1e-8" ${header.iterations ? `iterations="${header.iterations}"` : ""}><flag autoreset="disable"/></option>
+    tolerance="1e-8" ${header.iterations ? `iterations="${header.iterations}"` : ""}>
+    <flag autoreset="disable"/></option>
   <size memory="500M"/>
   <worldbody><flexcomp name="body" type="direct" dim="3" mass="1" radius="1e-6"
     point="${[...nodes.values].join(" ")}"

@@ -123,6 +123,20 @@ TEST_CASE("a client cannot write outside its folder, use the network, or leave p
   CHECK(n_processes_with(mark + std::string(1, '\0')) == 0);
 }
 
+TEST_CASE("a client's answer stands in place of the springs', with what the client ignores as a warning") {
+  if (are_clients_refused()) return;
+  const std::string still = "x = read(); hello(unsupported=['midlines']); frame(x); say({'end': True})";
+  const compare::Answers answers =
+      compare::with_client({}, small_scene(), {"mine", {python, "-c", beginning + still}});
+  CHECK(answers.msm.converged());
+  CHECK(answers.msm_source == "mine (x 1, none)");
+  CHECK_THAT(answers.msm_warnings, Catch::VectorContains(std::string("mine ignores midlines")));
+  const compare::Answers none =
+      compare::with_client({}, small_scene(), {"mine", {python, "-c", "raise SystemExit(3)"}});
+  CHECK(none.failed());
+  CHECK(none.msm_source == "mine");
+}
+
 namespace {
 
 /// A right answer to small_scene(): the introduction, a frame of displacements that are all 0, the end.
