@@ -20,6 +20,7 @@ namespace {
 using Displacement = std::vector<Eigen::Vector3d>;
 
 constexpr std::size_t most_line = 100'000; ///< bytes
+constexpr double most_sizes = 1000;        ///< of the body, that a node may move by
 
 [[noreturn]] void refuse_answer(const std::string& problem) {
   throw cases::SolveError(problem);
@@ -74,6 +75,7 @@ class Session {
  public:
   Session(const cases::Scene& scene, const Client& client, const ClientBudget& budget, ClientAnswer& found)
       : scene_(scene), budget_(budget), found_(found),
+        size_(cases::bounding_box(scene.mesh.nodes).diagonal().norm()),
         program_(client.words, {budget.start_seconds + budget.seconds}) {}
 
   void introduce(const std::string& message) {
@@ -120,6 +122,7 @@ class Session {
   const cases::Scene& scene_;
   const ClientBudget& budget_;
   ClientAnswer& found_;
+  double size_; ///< of the body, mm
   ConfinedProgram program_;
 
   /// The frame's numbers as displacements, mm.
@@ -130,9 +133,12 @@ class Session {
     for (std::size_t i = 0; i < n; ++i) {
       std::memcpy(all[i].data(), bytes.data() + 3 * i * sizeof(double), 3 * sizeof(double));
       all[i] *= 1e3;
-      if (!all[i].allFinite() || !(all[i].norm() < 1e12))
-        refuse_answer(fmt::format("{}: node {} is at no finite place", stage, i));
+      if (!all[i].allFinite()) refuse_answer(fmt::format("{}: node {} is at no finite place", stage, i));
       if (are_positions) all[i] -= scene_.mesh.nodes[i];
+      if (!(all[i].norm() <= most_sizes * size_))
+        refuse_answer(fmt::format("{}: node {} has moved by more than {:g} times the body's size: the answer "
+                                  "has diverged",
+                                  stage, i, most_sizes));
     }
     return all;
   }

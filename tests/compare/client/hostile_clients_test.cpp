@@ -89,6 +89,7 @@ TEST_CASE("a client that hangs, crashes or speaks nonsense is a failed row that 
       {"crashes", "read(); hello(); os.abort()", "crashed (Aborted)"},
       {"ends early", "x = read(); hello()", "frame 0: ended early, with status 0"},
       {"NaN", "x = read(); hello(); frame([float('nan')] * len(x))", "node 0 is at no finite place"},
+      {"diverged", "x = read(); hello(); frame([1e9] * len(x))", "the answer has diverged"},
       {"infinite", "x = read(); hello(); frame([float('inf')] * len(x))", "node 0 is at no finite place"},
       {"too few nodes", "x = read(); hello(); frame(x[3:])", "26 nodes, the scene has 27"},
       {"too many nodes", "x = read(); hello(); frame(x + x[:3])", "28 nodes, the scene has 27"},
