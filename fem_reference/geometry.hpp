@@ -50,9 +50,9 @@ class Geometry {
   CellGeometry of(int cell) const;
   /// Integrals of N_a N_b over a cell at rest, mm³; exact for straight tetrahedra, whose points are too few.
   Eigen::MatrixXd products(const CellGeometry& cell) const;
-  /// The same, or lumped. The sums of rows of a hexahedron are then on the diagonal; those of a tetrahedron
-  /// of degree 2 are negative at its vertices, and it has its diagonal instead, scaled to its volume (Hinton,
-  /// Rock and Zienkiewicz 1976), which is the same at degree 1.
+  /// The same, or lumped. The sums of rows of a hexahedron are then on the diagonal. Those of a quadratic
+  /// tetrahedron are negative at its vertices: it has its diagonal instead, scaled to its volume (Hinton, Rock
+  /// and Zienkiewicz 1976), which is the same at degree 1.
   Eigen::MatrixXd products(const CellGeometry& cell, cases::ElementMass kind) const;
   /// Rest position of a quadrature point, mm.
   Eigen::Vector3d point(int cell, int q) const;

@@ -56,7 +56,7 @@ std::unique_ptr<dealii::FiniteElement<3>> make_element(const ElementType& type) 
 
 dealii::Quadrature<3> make_quadrature(const ElementType& type) {
   const auto degree = static_cast<unsigned>(type.degree);
-  // Of order 1, one point, or 2, four points; QGaussSimplex<3>(2) has more.
+  // One point of order 1, or four of order 2; QGaussSimplex<3>(2) has more.
   if (is_tetrahedron(type)) return dealii::QWitherdenVincentSimplex<3>(1, degree == 1);
   return dealii::QGauss<3>(degree + 1);
 }

@@ -20,7 +20,7 @@ namespace {
 using Displacement = std::vector<Eigen::Vector3d>;
 
 constexpr std::size_t most_line = 100'000; ///< bytes
-constexpr double most_sizes = 1000;        ///< of the body, that a node may move by
+constexpr double most_sizes = 1000;        ///< sizes of the body, that a node may move by
 
 [[noreturn]] void refuse_answer(const std::string& problem) {
   throw cases::SolveError(problem);
@@ -122,7 +122,7 @@ class Session {
   const cases::Scene& scene_;
   const ClientBudget& budget_;
   ClientAnswer& found_;
-  double size_; ///< of the body, mm
+  double size_; ///< the body's, mm
   ConfinedProgram program_;
 
   /// The frame's numbers as displacements, mm.

@@ -14,9 +14,9 @@ inline const std::string fem_model = "finite elements", springs_model = "springs
 /// One way to answer a case: the finite elements on the case's mesh, our springs, or a client.
 struct JudgedRow {
   std::string model;                    ///< "finite elements", "springs" or the client's name
-  std::optional<Introduction> client{}; ///< of a client that came to it
-  std::string command{};                ///< of a client
-  std::string chosen{};                 ///< of a league: "default", or how the settings were found
+  std::optional<Introduction> client{}; ///< a client's that came to it
+  std::string command{};                ///< a client's
+  std::string chosen{};                 ///< in a league: "defaults", or how the settings were found
   std::string failure{};                ///< why there is no answer; empty where there is one
   std::optional<double> worst{};        ///< largest |error| of the measures with its sign, percent
   std::optional<double> bar{};          ///< points that the limit leaves of it

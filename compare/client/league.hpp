@@ -20,7 +20,7 @@ struct LeagueClient {
 struct League {
   std::vector<std::string> cases; ///< case files
   std::vector<LeagueClient> clients;
-  double most_milliseconds; ///< of a step, by the settings that are searched for
+  double most_milliseconds; ///< that a step may take by the settings that are searched for
   ClientBudget budget;
 };
 

@@ -16,7 +16,7 @@ struct ClientBudget {
   int iterations = 0;        ///< a step; 0: the client's own default
   double model_time = 20;    ///< s, within which a body is to come to rest
   double start_seconds = 30; ///< until a client has read its scene and introduced itself
-  double seconds = 300;      ///< of the whole answer
+  double seconds = 300;      ///< that the whole answer may take
 };
 
 /// The times (s) at which a client is asked for frames; of a body that is to come to rest, none.

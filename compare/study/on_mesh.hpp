@@ -17,7 +17,7 @@ struct MaterialOnMesh {
   std::size_t n_cells = 0;
   std::size_t n_inner = 0; ///< nodes whose cells are all of the material, and that are on no boundary
   std::optional<msm::LatticeModuli> wanted{};  ///< the material's; absent with a fibre along no axis
-  msm::LatticeModuli uniform{};                ///< of the springs where every node follows a uniform strain
+  msm::LatticeModuli uniform{};                ///< the springs', where every node follows a uniform strain
   std::optional<msm::LatticeModuli> relaxed{}; ///< where the inner nodes find their equilibrium
   std::string not_relaxed{};                   ///< why there are none
   /// msm::strain_misfit() of the cells' own springs; absent for a network, and without the material's moduli

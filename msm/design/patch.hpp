@@ -14,8 +14,8 @@ Elasticity cell_elasticity(const CellTerms& terms, const cases::CellCorners& cor
 /// What a spring adds to it times the volume, N mm.  @param d  the vector between its ends, mm
 Elasticity spring_elasticity(const Eigen::Vector3d& d, double stiffness);
 
-/// Distance of a lattice's energies of strains from a material's: the root mean square over strains and pairs
-/// of them, |S (C_k - C) S|/√6 with S = C^(-1/2), whose strains have the energy 1 in the material.
+/// Distance of a lattice's energies of strains from a material's: the root mean square over strains and their
+/// pairs, |S (C_k - C) S|/√6 with S = C^(-1/2), whose strains have the energy 1 in the material.
 /// @param material  positive definite
 double strain_misfit(const Elasticity& lattice, const Elasticity& material);
 

@@ -153,11 +153,11 @@ class PatchedSystem : public SpringSystem {
  private:
   /// Iterations after which the springs are factorised anew where the body has come to, and the most.
   static constexpr int many_iterations = 60, most_iterations = 400;
-  static constexpr double probe_target = 1e-3; ///< of a random force, as on grids
+  static constexpr double probe_target = 1e-3; ///< residual of a random force, as on grids
 
   const Problem& problem_;
   Problem springs_problem_;
-  Tangent tangent_; ///< of the springs
+  Tangent tangent_; ///< the springs'
   PatchProduct patches_;
   std::unique_ptr<SpringSystem> whole_, springs_;
   Vector factorised_at_; ///< where the springs of the preconditioner are
