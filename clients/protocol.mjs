@@ -78,6 +78,24 @@ export function heldNodes({ supports }) {
   return { whole: new Set(whole), partly: count.size - whole.length };
 }
 
+/// What engines ignore that take E and nu on tetrahedra, and hold whole nodes alone.
+/// @param held  heldNodes()
+export function ignoredOnTetrahedra({ header, arrays }, held) {
+  const ignored = ["springs and their terms: it takes E and nu on tetrahedra"];
+  if (arrays.hexahedra) ignored.push("hexahedra: each is cut into 6 tetrahedra");
+  if (held.partly > 0) ignored.push(`supports of single components (${held.partly} nodes)`);
+  if (header.stiffness_damping > 0) ignored.push("stiffness_damping");
+  if (header.question === "motion") ignored.push(`scheme ${header.scheme?.name}`);
+  return ignored;
+}
+
+/// Ends a client that does not move supports, where a scene does.
+export function refuseMovingSupports({ arrays }) {
+  if (arrays.support_motion.values.every((x) => x === 0)) return;
+  say({ error: "this client does not move supports" });
+  process.exit(0);
+}
+
 /// A hexahedron, vertex i + 2j + 4k, cut into six tetrahedra around its diagonal from vertex 0 to 7.
 export const sixTetrahedra = [
   [0, 1, 3, 7], [0, 3, 2, 7], [0, 2, 6, 7], [0, 6, 4, 7], [0, 4, 5, 7], [0, 5, 1, 7],

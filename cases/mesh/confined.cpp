@@ -63,24 +63,15 @@ rlim_t address_space() {
   return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// The user's own limit may be lower still.
-void lower(__rlimit_resource resource, rlim_t most) {
-  rlimit limit{};
-  getrlimit(resource, &limit);
-  limit.rlim_cur = std::min(limit.rlim_cur, most);
-  limit.rlim_max = std::min(limit.rlim_max, most);
-  setrlimit(resource, &limit);
-}
-
 /// Runs the work in the child, and ends it. Nothing that is the parent's is cleaned up here.
 [[noreturn]] void work_confined(const std::function<std::string()>& work, const Limits& limits, int out) {
   prctl(PR_SET_PDEATHSIG, SIGKILL); // it would go on, and keep its parent's folder of results claimed
   const int nowhere = open("/dev/null", O_RDWR);
   for (const int standard : {0, 1, 2}) dup2(nowhere, standard);
   for (const int signal : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGFPE, SIGBUS}) std::signal(signal, SIG_DFL);
-  lower(RLIMIT_CPU, static_cast<rlim_t>(limits.seconds));
-  lower(RLIMIT_AS, address_space() + limits.bytes);
-  lower(RLIMIT_CORE, 0);
+  lower_limit(RLIMIT_CPU, static_cast<rlim_t>(limits.seconds));
+  lower_limit(RLIMIT_AS, address_space() + limits.bytes);
+  lower_limit(RLIMIT_CORE, 0);
   std::string answer(1, threw);
   if (!confine())
     answer += "this system cannot confine a process (seccomp)";
@@ -121,6 +112,15 @@ bool read_all(int in, int seconds, std::string& bytes) {
 
 Limits limits_to_read(std::uint64_t file_size) {
   return {600, 1'000'000'000 + 100 * file_size};
+}
+
+void lower_limit(int resource, std::uint64_t most) {
+  const auto which = static_cast<__rlimit_resource>(resource);
+  rlimit limit{};
+  getrlimit(which, &limit);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, most);
+  limit.rlim_max = std::min<rlim_t>(limit.rlim_max, most);
+  setrlimit(which, &limit);
 }
 
 std::string run_confined(const std::function<std::string()>& work, const Limits& limits) {

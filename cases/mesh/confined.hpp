@@ -18,6 +18,9 @@ Limits limits_to_read(std::uint64_t file_size);
 /// For gmsh to mesh a geometry, however short its text.
 inline constexpr Limits limits_to_mesh{600, 8'000'000'000};
 
+/// Lowers a resource limit of this process (RLIMIT_...); the user's own may be lower still.
+void lower_limit(int resource, std::uint64_t most);
+
 /// Runs a function in a child process that can compute, read files and answer, and nothing else: the kernel
 /// (seccomp) refuses to start programs, to open, create, rename or remove files for writing, and to use the
 /// network. For libraries that interpret a stranger's file as a program, or crash on a broken one.

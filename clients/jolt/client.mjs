@@ -21,6 +21,9 @@ ignored(hasSpring(2, (k) => k <= 0), "springs of stiffness 0 or less");
 ignored(arrays.volume_hexahedra.rows > 0, "volume of whole hexahedra: six tetrahedra of each keep theirs");
 ignored(arrays.volume_patches.rows > 0, "volume of the tetrahedra around nodes");
 ignored(header.stiffness_damping > 0, "stiffness_damping");
+const isDamped = (c, i) => Math.abs(c - Number(options.damping) * arrays.mass.at(i, 0)) <= 1e-9 * c;
+ignored(header.question === "motion" && !arrays.mass_damping.values.every(isDamped),
+        "mass_damping: it has its linear damping in place");
 ignored(header.question === "motion" && arrays.support_motion.rows > 0, "motion of supports");
 ignored(header.loads.length > 0, "loads on nodes within a step: they act at its beginning alone");
 ignored(header.question === "motion", `scheme ${header.scheme?.name}`);

@@ -1,7 +1,9 @@
 // MuJoCo's flex as a client of springproof: see README.md beside this file.
 import { parseArgs } from "node:util";
 import load from "mujoco-js";
-import { answer, factor, heldNodes, readScene, say, sixTetrahedra } from "../protocol.mjs";
+import {
+  answer, factor, heldNodes, ignoredOnTetrahedra, readScene, refuseMovingSupports, say, sixTetrahedra,
+} from "../protocol.mjs";
 
 const { values: options } = parseArgs({
   options: {
@@ -16,19 +18,12 @@ const { header, arrays } = scene;
 const { nodes, mass, materials } = arrays;
 const held = heldNodes(arrays), n = nodes.rows, substeps = Number(options.substeps);
 
-const unsupported = ["springs and their terms: it takes E and nu on tetrahedra"];
+refuseMovingSupports(scene);
+const unsupported = ignoredOnTetrahedra(scene, held);
 const ignored = (is, what) => is && unsupported.push(what);
-ignored(arrays.hexahedra, "hexahedra: each is cut into 6 tetrahedra");
-ignored(held.partly > 0, `supports of single components (${held.partly} nodes)`);
-if (arrays.support_motion.values.some((x) => x !== 0)) {
-  say({ error: "this client does not move supports" });
-  process.exit(0);
-}
 const isFirst = (x, i) => i % 4 > 1 || x === materials.at(0, i % 4);
 ignored(!materials.values.every(isFirst), "all materials but the first");
 ignored(!mass.values.some((m) => m > 0), "no masses: every node has 1 g");
-ignored(header.stiffness_damping > 0, "stiffness_damping");
-ignored(header.question === "motion", `scheme ${header.scheme?.name}`);
 
 const cells = [];
 if (arrays.tetrahedra) cells.push(...arrays.tetrahedra.values);

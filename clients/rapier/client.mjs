@@ -1,7 +1,9 @@
 // Rapier's soft bodies as a client of springproof: see README.md beside this file.
 import { parseArgs } from "node:util";
 import R from "@dimforge/rapier3d-compat";
-import { answer, factor, heldNodes, readScene, say, sixTetrahedra } from "../protocol.mjs";
+import {
+  answer, factor, heldNodes, ignoredOnTetrahedra, readScene, refuseMovingSupports, say, sixTetrahedra,
+} from "../protocol.mjs";
 
 const { values: options } = parseArgs({
   options: {
@@ -19,21 +21,15 @@ const scene = readScene();
 const { header, arrays } = scene;
 const held = heldNodes(arrays), n = arrays.nodes.rows, materials = arrays.materials;
 
-const unsupported = ["springs and their terms: it takes E and nu on tetrahedra"];
+refuseMovingSupports(scene);
+const unsupported = ignoredOnTetrahedra(scene, held);
 const ignored = (is, what) => is && unsupported.push(what);
-ignored(arrays.hexahedra, "hexahedra: each is cut into 6 tetrahedra");
-ignored(held.partly > 0, `supports of single components (${held.partly} nodes)`);
-if (arrays.support_motion.values.some((x) => x !== 0)) {
-  say({ error: "this client does not move supports" });
-  process.exit(0);
-}
+ignored(header.question === "motion" && arrays.mass_damping.values.some((c) => c > 0), "mass_damping");
 const changes = ({ history }) => history.points.length > 0 || history.frequency !== 0;
 ignored(header.question === "motion" && header.gravity.some(changes), "histories of gravity");
 const isFirst = (x, i) => i % 4 === 3 || x === materials.at(0, i % 4);
 const isSame = materials.values.every(isFirst);
 ignored(!isSame, "all materials but the first");
-ignored(header.stiffness_damping > 0, "stiffness_damping");
-ignored(header.question === "motion", `scheme ${header.scheme?.name}`);
 
 const cells = [];
 if (arrays.tetrahedra) cells.push(...arrays.tetrahedra.values);

@@ -1,6 +1,7 @@
 #include "compare/client/confined_program.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/mesh/confined.hpp"
 #include "compare/provenance/print.hpp"
 
 #include <algorithm>
@@ -70,14 +71,6 @@ scmp_filter_ctx refused_calls() {
   return filter;
 }
 
-void lower(__rlimit_resource resource, rlim_t most) {
-  rlimit limit{};
-  getrlimit(resource, &limit);
-  limit.rlim_cur = std::min(limit.rlim_cur, most);
-  limit.rlim_max = std::min(limit.rlim_max, most);
-  setrlimit(resource, &limit);
-}
-
 /// What the processes before the program's own need; made before the fork, since other threads may have held
 /// what the library locks.
 struct Start {
@@ -98,10 +91,10 @@ struct Start {
   dup2(start.input, STDIN_FILENO);
   dup2(start.output, STDOUT_FILENO);
   dup2(start.errors, STDERR_FILENO);
-  lower(RLIMIT_DATA, start.limits.memory);
-  lower(RLIMIT_FSIZE, start.limits.file_size);
-  lower(RLIMIT_CORE, 0);
-  lower(RLIMIT_NPROC, 256);
+  cases::lower_limit(RLIMIT_DATA, start.limits.memory);
+  cases::lower_limit(RLIMIT_FSIZE, start.limits.file_size);
+  cases::lower_limit(RLIMIT_CORE, 0);
+  cases::lower_limit(RLIMIT_NPROC, 256);
   for (int signal = 1; signal < 32; ++signal) std::signal(signal, SIG_DFL);
   sigset_t none;
   sigemptyset(&none);
