@@ -22,32 +22,38 @@ namespace {
 
 using cases::Element;
 
-constexpr auto hexahedron = cases::CellShape::hexahedron, tetrahedron = cases::CellShape::tetrahedron;
+constexpr auto tetrahedron = cases::CellShape::tetrahedron;
 
-constexpr std::array<ElementType, 9> table{{{Element::q1, hexahedron, 1, Pressure::pointwise, 0},
-                                            {Element::q1_wilson, hexahedron, 1, Pressure::pointwise, 0, 3},
-                                            {Element::q1_bbar, hexahedron, 1, Pressure::modes, 1},
-                                            {Element::q1_p0, hexahedron, 1, Pressure::modes, 1},
-                                            {Element::q2, hexahedron, 2, Pressure::pointwise, 0},
-                                            {Element::q2_p1, hexahedron, 2, Pressure::modes, 4},
-                                            {Element::p1, tetrahedron, 1, Pressure::pointwise, 0},
-                                            {Element::p2, tetrahedron, 2, Pressure::pointwise, 0},
-                                            {Element::p2_p0, tetrahedron, 2, Pressure::modes, 1}}};
+/// What of an element only its cells' equations know; cases::facts_of() has the rest.
+struct Row {
+  Element element;
+  int n_pressure_modes;
+  int n_bubbles = 0;
+};
+constexpr std::array<Row, 5> table{{{Element::q1_wilson, 0, 3},
+                                    {Element::q1_bbar, 1},
+                                    {Element::q1_p0, 1},
+                                    {Element::q2_p1, 4},
+                                    {Element::p2_p0, 1}}};
 
 } // namespace
 
 ElementType element_type(const cases::Fem& fem, const LawTraits& law) {
-  const auto row =
-      std::find_if(table.begin(), table.end(), [&](const auto& t) { return t.name == fem.element; });
-  assert(row != table.end());
-  if (law.split == Split::none && row->pressure != Pressure::pointwise)
+  const cases::ElementFacts& facts = cases::facts_of(fem.element);
+  if (law.split == Split::none && facts.has_pressure)
     throw cases::InputError(
         fem.where,
         fmt::format("this formulation's stress has no separate pressure, which {} needs; allowed "
                     "here: {}",
-                    cases::name_of(row->name),
-                    cases::alternatives(cases::elements_of(fem.formulation, row->shape == tetrahedron))));
-  return *row;
+                    cases::name_of(fem.element),
+                    cases::alternatives(cases::elements_of(fem.formulation, facts.is_tetrahedron))));
+  const auto row =
+      std::find_if(table.begin(), table.end(), [&](const Row& one) { return one.element == fem.element; });
+  const Row own = row != table.end() ? *row : Row{fem.element, 0};
+  assert(facts.has_pressure == (own.n_pressure_modes > 0));
+  return {fem.element,          facts.is_tetrahedron ? tetrahedron : cases::CellShape::hexahedron,
+          facts.degree,         facts.has_pressure ? Pressure::modes : Pressure::pointwise,
+          own.n_pressure_modes, own.n_bubbles};
 }
 
 int ElementType::n_nodes() const {

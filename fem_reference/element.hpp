@@ -19,7 +19,7 @@ enum class Pressure {
   modes ///< an unknown of its own per cell, balanced with the cell's volume and condensed in the linear solve
 };
 
-/// One row of the table of elements.
+/// An element, as its cells' equations need it.
 struct ElementType {
   cases::Element name;
   cases::CellShape shape;

@@ -18,7 +18,7 @@ namespace {
 /// A step that takes no longer than it advances keeps up with real time.
 void say_whether_in_time(JudgedRow& row, const cases::Scene& scene, const ClientBudget& budget) {
   const double step = scene.definition.dynamics ? scene.definition.dynamics->step : budget.step;
-  if (row.milliseconds_a_step) row.keeps_60_hz = *row.milliseconds_a_step <= 1e3 * step;
+  if (row.milliseconds_a_step) row.in_real_time = *row.milliseconds_a_step <= 1e3 * step;
 }
 
 /// The error of largest size, of the measures that have one.
@@ -143,7 +143,7 @@ Json row_to_json(const JudgedRow& row) {
             {"at", text_or_null(row.worst_at)},
             {"volume_percent", row.volume},
             {"milliseconds_a_step", row.milliseconds_a_step},
-            {"keeps_60_hz", row.keeps_60_hz},
+            {"in_real_time", row.in_real_time},
             {"rests_after", row.rests_after},
             {"reason", text_or_null(row.failure)},
             {"command", text_or_null(row.command)}};
@@ -199,7 +199,7 @@ void write_judged_text(std::ostream& out, const JudgedCase& judged) {
   const Columns columns = columns_of("model status error~%=error_percent{:.2f} +-=error_uncertainty{:.2f} "
                                      "at{:<} volume~%=volume_percent{:.2f} "
                                      "rests~s=rests_after{:.2f} ms~a~step=milliseconds_a_step{:.2f} "
-                                     "60~Hz=keeps_60_hz ignores=ignored");
+                                     "real~time=in_real_time ignores=ignored");
   write_table(out, columns, json_list(judged.rows, row_to_json));
   for (const JudgedRow& row : judged.rows)
     for (const std::string& note : notes_of(row)) write_wrapped(out, "    " + note, 6);
@@ -215,7 +215,7 @@ void write_judged_csv(std::ostream& out, const std::vector<JudgedCase>& cases) {
     }
   write_csv(out,
             columns_of("case model status error_percent error_uncertainty at volume_percent rests_after "
-                       "milliseconds_a_step keeps_60_hz ignored reason command"),
+                       "milliseconds_a_step in_real_time ignored reason command"),
             rows);
 }
 

@@ -23,7 +23,7 @@ struct JudgedRow {
   std::string worst_at{};               ///< the measure
   std::optional<double> volume{};       ///< error of the body's volume, percent of the reference's
   std::optional<double> milliseconds_a_step{};
-  std::optional<bool> keeps_60_hz{};   ///< it steps through 1/60 s in at most that time
+  std::optional<bool> in_real_time{};  ///< its step takes at most the time that it advances
   std::optional<double> rests_after{}; ///< s of model time; absent where it has not come to rest
   bool is_at_rest = true;
   std::vector<std::string> warnings{};

@@ -162,7 +162,7 @@ void write_league_markdown(std::ostream& out, const LeagueTable& table, const Le
       fmt::print(out, "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", cell("model"), cell("chosen"),
                  row.failure.empty() ? cell("error_percent") : "failed", cell("error_uncertainty"),
                  cell("at"), cell("volume_percent"), row.is_at_rest ? cell("rests_after") : "moves",
-                 cell("milliseconds_a_step"), cell("keeps_60_hz"), cell("ignored", "{:.0f}"));
+                 cell("milliseconds_a_step"), cell("in_real_time"), cell("ignored", "{:.0f}"));
     }
     fmt::print(out, "\n");
     std::set<std::string> printed; // both rows of a client may have the same

@@ -20,7 +20,7 @@ function league_table(one, index) {
     cell(r.status === "failed" ? "failed" : [number(r.error_percent), missing(r.error_uncertainty) ? "" :
       ` ± ${number(r.error_uncertainty)}`]), text_cell(r.at || "–"), cell(number(r.volume_percent)),
     cell(r.status === "moving" ? "moves" : number(r.rests_after)), cell(general(r.milliseconds_a_step, 3)),
-    text_cell(missing(r.keeps_60_hz) ? "–" : r.keeps_60_hz ? "yes" : "no"),
+    text_cell(missing(r.in_real_time) ? "–" : r.in_real_time ? "yes" : "no"),
     cell(r.client && r.client.unsupported.length > 0 ? r.client.unsupported.length : "–")]));
   return table("league-" + index, `${one.case}: errors from ${one.reference === "limit" ? "the finite elements’ limit" :
     "the finite elements on the same mesh"}`, row([text_head("model"), head("worst error, %"), text_head("at"), head("volume, %"),
