@@ -13,6 +13,7 @@
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solve_jobs.hpp"
+#include "compare/study/error_budget.hpp"
 #include "compare/study/write_study.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/quote.hpp"
@@ -35,6 +36,7 @@ struct RunOptions {
   std::string out;
   int meshes = 0;              ///< meshes of the finite elements' limit; 0: as the case asks
   bool converges_time = false; ///< once more with half the step
+  bool has_error_budget = false; ///< law, mesh, step and iterations apart
   std::string peer;            ///< a program that is asked too; empty: none
   DisplacementOptions displacements;
   std::string replay;               ///< a recording of interact; empty: none
@@ -204,23 +206,26 @@ Answers answer(const Question& question, const FinishedCases& finished, Progress
   return answers;
 }
 
-/// The page of a case that is solved, with its designs ranked when asked. Collective.
-void write_page_of(const RunOptions& options, const Comparison& comparison, const Ranking* ranking) {
+/// What a run has found of its cases so far.
+struct Results {
+  std::vector<Comparison> done;
+  std::vector<TimeStudy> time_studies; ///< as many, if asked for
+  std::vector<ErrorBudgets> budgets;   ///< likewise
+  std::vector<Ranking> rankings;       ///< as many, if asked for
+};
+
+/// The page of the case that was solved last, with its designs ranked when asked. Collective.
+void write_page(const RunOptions& options, const Results& results) {
+  const Comparison& comparison = results.done.back();
   Answers answers = gathered(comparison.answers);
   run_on_all_ranks([&] {
     if (mpi_rank() != 0) return;
     Comparison whole = comparison;
     whole.answers = std::move(answers);
-    write_case_page(options.out, whole, ranking, {typed_command()});
+    write_case_page(options.out, whole, results.rankings.empty() ? nullptr : &results.rankings.back(),
+                    {typed_command()}, results.budgets.empty() ? nullptr : &results.budgets.back());
   });
 }
-
-/// What a run has found of its cases so far.
-struct Results {
-  std::vector<Comparison> done;
-  std::vector<TimeStudy> time_studies; ///< as many, if asked for
-  std::vector<Ranking> rankings;       ///< as many, if asked for
-};
 
 /// The text of the case that was solved last, on rank 0.
 void print_last(const RunOptions& options, const Results& results) {
@@ -228,6 +233,7 @@ void print_last(const RunOptions& options, const Results& results) {
   const cases::Case& definition = comparison.scene.definition;
   write_text(std::cout, comparison, options.meshes > 0 ? MeshTable::printed : MeshTable::left_out);
   if (options.converges_time) write_time_study_text(std::cout, results.time_studies.back());
+  if (options.has_error_budget) write_error_budget_text(std::cout, results.budgets.back());
   if (!options.out.empty())
     write_wrapped(std::cout,
                   fmt::format("  files    {}/results.json, comparison.csv, {}.{}{}", options.out,
@@ -245,15 +251,15 @@ void write_files(const RunOptions& options, const Results& results) {
   if (options.out.empty()) return;
   write_results(options.out, results.done);
   if (mpi_rank() == 0 && !results.rankings.empty()) write_rankings(options.out, results.rankings);
-  if (options.report)
-    write_page_of(options, results.done.back(),
-                  results.rankings.empty() ? nullptr : &results.rankings.back());
+  if (options.report) write_page(options, results);
 }
 
 nlohmann::ordered_json results_to_json(const Results& results) {
   nlohmann::ordered_json document = to_json(results.done);
   for (std::size_t i = 0; i < results.time_studies.size(); ++i)
     document["cases"][i]["time_study"] = time_study_to_json(results.time_studies[i]);
+  for (std::size_t i = 0; i < results.budgets.size(); ++i)
+    document["cases"][i]["error_budget"] = error_budgets_to_json(results.budgets[i]);
   for (std::size_t i = 0; i < results.rankings.size(); ++i)
     document["cases"][i]["ranking"] = ranking_to_json(results.rankings[i]);
   return document;
@@ -276,6 +282,10 @@ int run_comparisons(const RunOptions& options) {
     cases::check_has_vtk();
     for (Question& question : questions) question.scene.definition.has_fields = true;
   }
+  if (options.has_error_budget && n_mpi_ranks() > 1)
+    throw cases::InputError("--error-budget: it runs on one rank; start the program without mpirun");
+  if (options.has_error_budget) // the truth is a limit
+    for (Question& question : questions) question.scene.definition.fem.has_auto_accuracy = true;
   check_memory(questions);
   questions = with_recording(std::move(questions), options.replay);
   const auto external =
@@ -300,6 +310,7 @@ int run_comparisons(const RunOptions& options) {
           study_time(comparison.scene, comparison.answers, question.request, solve_fem));
       failed = failed || !results.time_studies.back().failures.empty();
     }
+    if (options.has_error_budget) results.budgets.push_back(study_errors(comparison, question.request));
     if (!options.designs.empty()) {
       results.rankings.push_back(rank_designs(comparison.scene,
                                               designs_of(options.designs, comparison.scene.definition),
@@ -334,6 +345,13 @@ void add_run_command(CLI::App& program, Action& chosen) {
       ->check(CLI::IsMember({"ccx"}));
   for (CLI::Option* others : add_displacement_options(*command, options->displacements))
     others->excludes(only);
+  command
+      ->add_flag("--error-budget", options->has_error_budget,
+                 "the springs on finer lattices, a motion with half its step: how much of each error is of "
+                 "the law, the mesh, the step and the iterations")
+      ->excludes(only)
+      ->excludes("--msm-displacements")
+      ->excludes("--client");
   CLI::Option* out = command->add_option(
       "--out", options->out,
       "folder for results.json, comparison.csv and fields as .vtu (of several ranks: .pvtu); cases "

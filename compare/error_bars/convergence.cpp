@@ -246,13 +246,6 @@ MeasuredValue surface_over_time(const cases::Scene& scene, const Answers& answer
   return value;
 }
 
-cases::Scene with_half_the_step(cases::Scene scene) {
-  cases::Dynamics& dynamics = *scene.definition.dynamics;
-  dynamics.step /= 2;
-  dynamics.write_every *= 2; // the same bodies
-  return scene;
-}
-
 std::optional<HalvedStep> halved_step(const cases::Measure& measure, const cases::Scene& scene, int order,
                                       const Answer& whole, const Answer& half) {
   if (!whole.converged() || !half.converged()) return std::nullopt;
@@ -350,6 +343,13 @@ std::vector<MeasuredValue> measure(const cases::Scene& scene, const Answers& ans
   if (scene.definition.surface && scene.definition.dynamics)
     values.push_back(surface_over_time(scene, answers));
   return values;
+}
+
+cases::Scene with_half_the_step(cases::Scene scene) {
+  cases::Dynamics& dynamics = *scene.definition.dynamics;
+  dynamics.step /= 2;
+  dynamics.write_every *= 2; // the same bodies
+  return scene;
 }
 
 TimeStudy study_time(const cases::Scene& scene, const Answers& answers, const Request& request,

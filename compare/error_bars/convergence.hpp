@@ -145,6 +145,9 @@ struct TimeStudy {
   std::vector<std::string> failures{}; ///< a sentence for each model that failed with half the step
 };
 
+/// A dynamic case's scene with half its step, which writes the same bodies.
+cases::Scene with_half_the_step(cases::Scene scene);
+
 /// Solves a dynamic case once more with half its step. Collective over MPI_COMM_WORLD.
 /// @param answers  those to the case as it is
 /// @throws InputError if the case has no [dynamics]

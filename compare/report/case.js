@@ -73,6 +73,23 @@ function measures() {
     ? " A norm is that of the difference, over the body or over time, and has no sign." : "")];
 }
 
+// The parts of every error: of the law, the mesh, the step and the iterations.
+function causes() {
+  const budget = report.error_budget;
+  if (!budget) return null;
+  const parts = ["law", "mesh", "step", "iterations"];
+  const part = ({ percent, uncertainty, reason }) => cell(missing(percent) ? "–" : reason ? "0" : with_bar(percent, uncertainty || null, signed));
+  const line = (model) => (one) => row([row_head(typeset(one.measure)), text_cell(model), parts.map((name) => part(one[name])),
+    cell(missing(one.sum) ? "–" : signed(one.sum)), cell(missing(one.whole) ? "–" : signed(one.whole))]);
+  const reasons = new Set([...budget.msm, ...budget.fem].flatMap((one) => [one.reason && `${one.measure}: ${one.reason}`,
+    ...parts.map((name) => missing(one[name].percent) && one[name].reason && `${one.measure}: ${one[name].reason}`)]).filter(Boolean));
+  return [budget.advice.map((text) => make("p", { class: "answer" }, typeset(text))),
+    table("causes", "Error by its causes, % of the finite elements' limit", row([text_head("measure"), text_head("model"),
+      [...parts, "sum", "whole"].map((text) => head(text))]),
+    body([...budget.msm.map(line("springs")), ...budget.fem.map(line("finite elements"))])),
+    [budget.note, ...reasons].filter(Boolean).map((text) => quiet(typeset(text)))];
+}
+
 // How the measures of a case in time went, in both models.
 function motion() {
   const course = one_case && one_case.motion;

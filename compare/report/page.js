@@ -12,7 +12,7 @@ function about() {
 }
 
 const page_sections = [["league", "League", league], ["verdict", "Verdict", verdict], ["skin", "Skin", skin], ["landmarks", "Landmarks", landmarks],
-  ["measures", "Measures", measures], ["motion", "Motion", motion], ["springs", "Springs", case_springs],
+  ["measures", "Measures", measures], ["causes", "Causes", causes], ["motion", "Motion", motion], ["springs", "Springs", case_springs],
   ["choose", "Which springs", choose], ["designs", "Designs", designs], ["bodies", "Bodies", bodies],
   ["ranking", "Designs compared", ranked], ["tables", "Tables", tables],
   ["thesis", "The thesis, reproduced", thesis], ["repeat", "Again", repeat], ["about", "About this page", about]];

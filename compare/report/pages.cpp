@@ -82,7 +82,7 @@ void write_page(const std::string& file, const std::string& title, Json data, co
 }
 
 Json case_page_to_json(const Comparison& comparison, const Ranking* ranking,
-                       const std::vector<std::string>& commands) {
+                       const std::vector<std::string>& commands, const ErrorBudgets* budgets) {
   const cases::Case& definition = comparison.scene.definition;
   const cases::Fem& fem = comparison.answers.resolved;
   Json document{{"heading", definition.name},
@@ -111,18 +111,19 @@ Json case_page_to_json(const Comparison& comparison, const Ranking* ranking,
   else
     document["views"] = views_to_json({view});
   if (ranking) document["ranking"] = ranking_to_json(*ranking);
+  if (budgets) document["error_budget"] = error_budgets_to_json(*budgets);
   return document;
 }
 
 void write_case_page(const std::string& folder, const Comparison& comparison, const Ranking* ranking,
-                     const std::vector<std::string>& commands) {
+                     const std::vector<std::string>& commands, const ErrorBudgets* budgets) {
   const std::string& name = comparison.scene.definition.name;
   const std::string drawn =
       name + "_bodies"; // a folder, so that no file that gnuplot names has a case's name
   claim_subfolder(folder, drawn);
   plot_bodies(folder + "/" + drawn, "bodies", {overlay_of(comparison, name)}, 1, 700);
   write_page(folder + "/" + name + ".html", name + ": springs against finite elements",
-             case_page_to_json(comparison, ranking, commands));
+             case_page_to_json(comparison, ranking, commands, budgets));
 }
 
 } // namespace springproof::compare

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compare/error_bars/convergence.hpp"
+#include "compare/study/error_budget.hpp"
 #include "compare/study/study.hpp"
 #include "compare/thesis/figures.hpp"
 #include "compare/thesis/regenerate.hpp"
@@ -68,15 +69,18 @@ nlohmann::ordered_json skin_to_json(const Comparison& comparison);
 /// must be here.
 /// @param ranking   ranking of the same case; null: none
 /// @param commands  those that make the page, as typed
+/// @param budgets   the parts of the errors; null: none
 /// @throws InputError if something cannot be read or written
 void write_case_page(const std::string& folder, const Comparison& comparison, const Ranking* ranking,
-                     const std::vector<std::string>& commands);
+                     const std::vector<std::string>& commands, const ErrorBudgets* budgets = nullptr);
 
 /// What the page is rendered from: "heading", "subheading", "verdict", "time", "case" (as in results.json),
 /// "springs" (as attempt_to_json() has a design; null without one of ours), "skin" (skin_to_json()) or else
-/// "views" (views_to_json()), "ranking" (ranking_to_json()), "commands".
+/// "views" (views_to_json()), "ranking" (ranking_to_json()), "commands", and
+/// where there are budgets "error_budget" (error_budgets_to_json()).
 nlohmann::ordered_json case_page_to_json(const Comparison& comparison, const Ranking* ranking,
-                                         const std::vector<std::string>& commands);
+                                         const std::vector<std::string>& commands,
+                                         const ErrorBudgets* budgets = nullptr);
 
 /// FOLDER/report.html: which springs for a material, every design's errors, deformed bodies, tables, and what
 /// is reproduced of the thesis, on one page.

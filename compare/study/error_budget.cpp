@@ -1,0 +1,401 @@
+#include "compare/study/error_budget.hpp"
+
+#include "cases/case/elements.hpp"
+#include "compare/provenance/machine.hpp"
+#include "compare/solve/estimate.hpp"
+#include "compare/solve/springs.hpp"
+#include "mechanics/dynamics/scheme.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace springproof::compare {
+
+namespace {
+
+using cases::index;
+using Eigen::Vector3d;
+using Field = std::vector<Vector3d>; ///< one vector per node; of a measure that is a number, (number, 0, 0)
+
+/// a + factor (b - c)
+Field moved(const Field& a, double factor, const Field& b, const Field& c) {
+  Field result(a.size());
+  for (std::size_t n = 0; n < a.size(); ++n) result[n] = a[n] + factor * (b[n] - c[n]);
+  return result;
+}
+
+Field difference(const Field& a, const Field& b) {
+  return moved(Field(a.size(), Vector3d::Zero()), 1, a, b);
+}
+
+/// The springs with nothing left that iterations leave.
+cases::Scene without_iteration_limit(cases::Scene scene) {
+  cases::Msm& msm = scene.definition.msm;
+  msm.iterations_per_step.reset();
+  if (msm.relaxation) {
+    msm.relaxation.reset();
+    msm.solver = cases::Solver::newton;
+  }
+  return scene;
+}
+
+bool has_iteration_limit(const cases::Msm& msm) {
+  return msm.iterations_per_step || msm.relaxation;
+}
+
+/// One model on one lattice, with the case's step and with half of it.
+struct Lattice {
+  cases::Scene scene;
+  cases::Solution solution;
+  std::optional<cases::Solution> half_step{};
+};
+
+/// A value, such as another step or mesh would have it, and by how much it may be wrong.
+struct Known {
+  Field value, uncertainty;
+};
+
+Known exactly(const Field& value) {
+  return {value, Field(value.size(), Vector3d::Zero())};
+}
+
+/// What parts of an error at one measure are made of.
+class MeasuredParts {
+ public:
+  MeasuredParts(const cases::Measure& measure, const cases::Scene& scene)
+      : measure_(measure), scene_(scene), is_field_(is_field_norm(measure.kind)) {}
+
+  /// What the measure is of a solution; nothing where it has no value.
+  std::optional<Field> value(const cases::Scene& scene, const cases::Solution& solution) const {
+    if (is_field_) {
+      Field field = solution.displacement; // the nodes of the body's own mesh are the first
+      field.resize(scene_.mesh.nodes.size());
+      return field;
+    }
+    const auto number = value_of(*find_named(scene.definition.measures, measure_.name), scene, solution);
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    return Field{{*number, 0, 0}};
+  }
+
+  /// The limit of values on meshes from coarse to fine, or why there is none.
+  std::variant<Known, std::string> limit(const std::vector<Field>& coarse_to_fine) const {
+    if (is_field_) {
+      std::vector<const Field*> fields;
+      for (const Field& field : coarse_to_fine) fields.push_back(&field);
+      auto found = find_limit(fields, [this](const Field& field) { return size(field); });
+      if (auto* reason = std::get_if<std::string>(&found)) return *reason;
+      auto& limit = std::get<FieldLimit>(found);
+      return Known{std::move(limit.value), std::move(limit.uncertainty)};
+    }
+    std::vector<double> numbers;
+    for (const Field& field : coarse_to_fine) numbers.push_back(field[0][0]);
+    const auto found = find_limit(numbers);
+    if (const auto* reason = std::get_if<std::string>(&found)) return *reason;
+    return of_number(std::get<Limit>(found));
+  }
+
+  static Known of_number(const Limit& limit) {
+    return {Field{{limit.value, 0, 0}}, Field{{limit.uncertainty, 0, 0}}};
+  }
+
+  double size(const Field& field) const {
+    return is_field_ ? field_norm(measure_.kind, scene_.mesh, field) : std::abs(field[0][0]);
+  }
+
+  /// A difference in percent of the truth, with a number's sign; of a field its share in the whole
+  /// difference, p.e/|e|, where 4 p.e = |p + e|² - |p - e|².
+  double percent(const Field& part, const Field& whole, const Field& truth) const {
+    if (!is_field_) return 100 * part[0][0] / truth[0][0];
+    const double sum = size(moved(part, 1, whole, Field(whole.size(), Vector3d::Zero()))),
+                 rest = size(difference(part, whole)), all = size(whole);
+    return all > 0 ? 100 * (sum * sum - rest * rest) / (4 * all * size(truth)) : 0;
+  }
+
+ private:
+  const cases::Measure& measure_;
+  const cases::Scene& scene_;
+  bool is_field_;
+};
+
+/// What the step of a motion adds to a value: value - f0 with Richardson's f0 = f2 + (f2 - f1)/(2^p - 1).
+Field step_part(const Field& value, const Field& half_step, int order) {
+  const double factor = std::pow(2, order) / (std::pow(2, order) - 1);
+  Field part = difference(value, half_step);
+  for (Vector3d& each : part) each *= factor;
+  return part;
+}
+
+/// What a lattice is left unsolved for.
+constexpr double most_seconds = 60;
+
+std::string why_not_finer(const cases::Scene& finer, const Request& request) {
+  const Estimate next = estimate_springs(size_of(finer));
+  const MemoryLimit limit = memory_limit();
+  if (next.seconds <= most_seconds * request.n_threads && megabytes_within(limit, next) <= limit.megabytes)
+    return "";
+  return fmt::format("the next lattice would have about {:.2g} unknowns, and take {:.0f} s and {:.0f} MB",
+                     next.unknowns, next.seconds, next.megabytes);
+}
+
+/// Why a case's springs are those of its own mesh alone; empty when others can be designed like them.
+std::string why_one_lattice(const Comparison& comparison) {
+  const cases::Case& definition = comparison.scene.definition;
+  if (cases::facts_of(definition.msm.design).source == cases::DesignSource::file)
+    return "the springs of a file belong to its mesh, and have no limit";
+  return reason_without_continuum_limit(comparison.scene).value_or("");
+}
+
+Answer solved(const cases::Scene& scene, const Request& request) {
+  std::optional<msm::DesignResult> unused;
+  return solve_springs(scene, request.n_threads, unused);
+}
+
+/// The springs of a case, without what iterations leave, on lattices from coarse to fine.
+class Lattices {
+ public:
+  Lattices(const Comparison& comparison, const Request& request, ErrorBudgets& told)
+      : request_(request), told_(told) {
+    constexpr int most = 3;
+    cases::Scene scene = without_iteration_limit(comparison.scene);
+    const std::string one = why_one_lattice(comparison);
+    const bool is_own = !has_iteration_limit(comparison.scene.definition.msm);
+    while (add(std::move(scene), is_own && all.empty() ? &comparison.answers.msm.solution : nullptr)) {
+      told_.lattices.push_back(static_cast<int>(all.size()) - 1);
+      if (!(told_.note = one).empty() || all.size() == most) return;
+      try {
+        scene = finer_lattice(all.back().scene);
+      } catch (const cases::InputError& error) {
+        told_.note = error.what();
+        return;
+      }
+      if (!(told_.note = why_not_finer(scene, request)).empty()) return;
+    }
+  }
+
+  std::vector<Lattice> all;
+
+ private:
+  const Request& request_;
+  ErrorBudgets& told_;
+
+  /// Solves one more lattice; of a motion the first two with half the step too.
+  bool add(cases::Scene scene, const cases::Solution* known) {
+    Lattice lattice{std::move(scene), {}};
+    if (!is_solved(known ? Answer{*known} : solved(lattice.scene, request_), lattice.solution)) return false;
+    if (lattice.scene.definition.dynamics && all.size() < 2 &&
+        !is_solved(solved(with_half_the_step(lattice.scene), request_), lattice.half_step.emplace()))
+      return false;
+    all.push_back(std::move(lattice));
+    return true;
+  }
+
+  bool is_solved(Answer answer, cases::Solution& solution) {
+    if (!answer.converged())
+      told_.note =
+          fmt::format("the lattice refined {} times was not solved: {}", all.size(), answer.solution.message);
+    solution = std::move(answer.solution);
+    return answer.converged();
+  }
+};
+
+const char* const by_construction = "zero by construction";
+
+/// The parts of both models' errors at one measure.
+class Budget {
+ public:
+  Budget(const cases::Measure& measure, const Comparison& comparison)
+      : measure_(measure), scene_(comparison.scene), answers_(comparison.answers),
+        parts_(measure, comparison.scene), order_(order_in_time(comparison.scene)) {}
+
+  /// Finds the truth, the finite elements' limit in mesh and step.
+  /// @param half_step  finite elements on the case's mesh with half its step; null: of statics
+  /// @return why there is none; empty when there is one
+  std::string find_truth(const std::optional<MeshStudy>& study, const cases::Solution* half_step) {
+    if (cases::is<cases::measures::DisplacementFieldMax>(measure_))
+      return "the largest displacements of two bodies are at two places, and parts of them do not add up";
+    if (is_trajectory_norm(measure_)) return "the norm of a course over time has no parts that add up";
+    if (!study) return "the case has accuracy = \"none\", so no limit is known (--converge asks for it)";
+    const StudiedMeasure& studied = *find_named(study->measures, measure_.name);
+    if (!studied.reference) return studied.no_reference;
+    limit_ = is_field_norm(measure_.kind) ? Known{study->field->value, study->field->uncertainty}
+                                          : MeasuredParts::of_number(*studied.reference);
+    const auto value = parts_.value(scene_, answers_.fem.solution);
+    if (!value) return "the finite elements have no such value";
+    fem_ = *value;
+    fem_step_ = zero();
+    if (half_step) {
+      const auto half = parts_.value(scene_, *half_step);
+      if (!half) return "the finite elements have no such value with half the step";
+      fem_step_ = step_part(fem_, *half, order_);
+    }
+    truth_ = difference(limit_.value, fem_step_);
+    if (!(parts_.size(truth_) > zero_of(measure_, scene_, answers_.fem.solution)))
+      return "the truth is zero, and errors are relative to it";
+    return "";
+  }
+
+  ErrorBudget of_fem() {
+    whole_ = difference(fem_, truth_);
+    ErrorBudget budget = begin();
+    budget.law = budget.iterations = {0., 0, by_construction};
+    budget.mesh = part(difference(fem_, limit_.value), limit_.uncertainty);
+    budget.step = step(fem_step_);
+    return budget;
+  }
+
+  ErrorBudget of_springs(const std::vector<Lattice>& lattices, const std::string& note) {
+    const auto own = parts_.value(scene_, answers_.msm.solution);
+    if (!own) return {measure_.name, {}, {}, {}, {}, {}, "the springs have no such value"};
+    whole_ = difference(*own, truth_);
+    ErrorBudget budget = begin();
+    std::vector<Field> values, steps;
+    for (const Lattice& lattice : lattices) {
+      const auto value = parts_.value(lattice.scene, lattice.solution);
+      if (!value) break;
+      values.push_back(*value);
+      if (!lattice.half_step) continue;
+      const auto half = parts_.value(lattice.scene, *lattice.half_step);
+      if (!half) break;
+      steps.push_back(step_part(*value, *half, order_));
+    }
+    const auto unknown = [&](const std::string& why) { return ErrorPart{std::nullopt, 0, why}; };
+    if (values.empty()) {
+      budget.law = budget.mesh = budget.step = budget.iterations = unknown(note);
+      return budget;
+    }
+    budget.iterations = has_iteration_limit(scene_.definition.msm)
+                            ? part(difference(*own, values.front()), zero())
+                            : ErrorPart{0., 0, by_construction};
+    const bool moves = scene_.definition.dynamics.has_value();
+    budget.step = moves && steps.empty() ? unknown(note) : step(moves ? steps.front() : zero());
+    const auto limit = values.size() == 1 ? note : parts_.limit(values);
+    if (const auto* reason = std::get_if<std::string>(&limit)) {
+      budget.law = budget.mesh = unknown(*reason);
+      return budget;
+    }
+    const Known& lattice = std::get<Known>(limit);
+    budget.mesh = part(difference(values.front(), lattice.value), lattice.uncertainty);
+    if (moves && steps.size() < 2) {
+      budget.law = unknown(note);
+      return budget;
+    }
+    const Field at_rest = moves ? difference(lattice.value, steps.back()) : lattice.value;
+    budget.law = part(difference(at_rest, truth_), lattice.uncertainty);
+    budget.law.uncertainty += 100 * parts_.size(limit_.uncertainty) / parts_.size(truth_);
+    return budget;
+  }
+
+ private:
+  const cases::Measure& measure_;
+  const cases::Scene& scene_;
+  const Answers& answers_;
+  MeasuredParts parts_;
+  int order_;
+  Known limit_;
+  Field fem_, fem_step_, truth_, whole_;
+
+  static int order_in_time(const cases::Scene& scene) {
+    const auto& dynamics = scene.definition.dynamics;
+    return dynamics && !cases::jumps_on_the_way(scene) ? mechanics::order_of(dynamics->scheme) : 1;
+  }
+
+  Field zero() const { return Field(fem_.size(), Vector3d::Zero()); }
+
+  ErrorBudget begin() const {
+    return {measure_.name, {}, {}, {}, {}, parts_.percent(whole_, whole_, truth_), {}};
+  }
+
+  ErrorPart part(const Field& change, const Field& uncertainty) const {
+    return {parts_.percent(change, whole_, truth_), 100 * parts_.size(uncertainty) / parts_.size(truth_), {}};
+  }
+
+  ErrorPart step(const Field& change) const {
+    return scene_.definition.dynamics ? part(change, zero()) : ErrorPart{0., 0, by_construction};
+  }
+};
+
+} // namespace
+
+cases::Scene finer_lattice(const cases::Scene& scene) {
+  cases::Scene own = scene;
+  for (cases::Measure& measure : own.definition.measures)
+    cases::for_each_region(measure, [&](cases::Region& region, bool) {
+      if (!region.is_node()) return;
+      region.near = Vector3d(scene.mesh.nodes[index(cases::select_node(scene.mesh, region))]);
+      region.tolerance.reset();
+    });
+  cases::Scene fine = cases::refine(own, 1);
+  if (!scene.mesh.grid) return fine;
+  // The search for a grid puts the cells in another order, and takes their groups along: the material's
+  // number stands behind the group's name meanwhile.
+  std::vector<std::string>& groups = fine.mesh.group_of_cell;
+  const bool has_groups = !groups.empty(), has_materials = !fine.material_of_cell.empty();
+  if (has_materials) {
+    groups.resize(fine.mesh.cells.size());
+    for (std::size_t c = 0; c < groups.size(); ++c)
+      groups[c] += '\n' + std::to_string(fine.material_of_cell[c]);
+  }
+  cases::find_grid(fine.mesh);
+  for (std::size_t c = 0; has_materials && c < groups.size(); ++c) {
+    const std::size_t end = groups[c].rfind('\n');
+    fine.material_of_cell[c] = std::stoi(groups[c].substr(end));
+    groups[c].resize(end);
+  }
+  if (!has_groups) groups.clear();
+  if (auto* box = std::get_if<cases::Box>(&fine.definition.body))
+    for (int& n : box->cells) n *= 2;
+  return fine;
+}
+
+const std::vector<NamedPart> error_parts{
+    {"law", &ErrorBudget::law, "another design"},
+    {"mesh", &ErrorBudget::mesh, "finer cells"},
+    {"step", &ErrorBudget::step, "a shorter step"},
+    {"iterations", &ErrorBudget::iterations, "more iterations"},
+};
+
+std::optional<double> ErrorBudget::sum() const {
+  double total = 0;
+  for (const NamedPart& named : error_parts) {
+    const std::optional<double>& percent = (this->*named.part).percent;
+    if (!percent) return std::nullopt;
+    total += *percent;
+  }
+  return total;
+}
+
+bool ErrorBudget::cancels() const {
+  double sizes = 0;
+  for (const NamedPart& named : error_parts) sizes += std::abs((this->*named.part).percent.value_or(0));
+  return whole && sizes > 2 * std::abs(*whole);
+}
+
+ErrorBudgets study_errors(const Comparison& comparison, const Request& request) {
+  const Answers& answers = comparison.answers;
+  ErrorBudgets budgets;
+  if (!answers.fem.converged() || !answers.msm.converged()) {
+    budgets.note = "a model has no answer";
+    return budgets;
+  }
+  std::optional<cases::Solution> half_step;
+  if (comparison.scene.definition.dynamics) {
+    Answer half = solve_fem_as_given(with_fem(with_half_the_step(comparison.scene), answers.resolved));
+    if (!half.converged()) {
+      budgets.note = "the finite elements with half the step: " + half.solution.message;
+      return budgets;
+    }
+    half_step = std::move(half.solution);
+  }
+  const std::vector<Lattice> lattices = Lattices(comparison, request, budgets).all;
+  for (const cases::Measure& measure : comparison.scene.definition.measures) {
+    Budget budget(measure, comparison);
+    const std::string why = budget.find_truth(comparison.mesh_study, half_step ? &*half_step : nullptr);
+    const ErrorBudget none{measure.name, {}, {}, {}, {}, {}, why};
+    budgets.springs.push_back(why.empty() ? budget.of_springs(lattices, budgets.note) : none);
+    budgets.fem.push_back(why.empty() ? budget.of_fem() : none);
+  }
+  return budgets;
+}
+
+} // namespace springproof::compare
