@@ -33,7 +33,6 @@ install(FILES ${CMAKE_BINARY_DIR}/springproof.bash DESTINATION share/bash-comple
 install(FILES LICENSE NOTICE.md CHANGELOG.md README.md DESTINATION share/doc/springproof)
 install(FILES cmake/copyright DESTINATION share/doc/springproof)
 install(DIRECTORY docs examples DESTINATION share/doc/springproof)
-install(DIRECTORY clients DESTINATION share/springproof PATTERN node_modules EXCLUDE PATTERN __pycache__ EXCLUDE)
 
 # ./do package
 set(CPACK_GENERATOR DEB)

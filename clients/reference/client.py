@@ -8,11 +8,7 @@ import time
 
 import numpy as np
 
-EDGES = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
-# The six faces of a hexahedron whose vertex is i + 2j + 4k, anticlockwise from outside.
-FACES = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
-
-TETRAHEDRON_FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+from forces import Body
 
 
 def read_scene(stream):
@@ -50,135 +46,12 @@ def factor(history, t):
     return f0 + (f1 - f0) * (t - t0) / (t1 - t0)
 
 
-def cross_matrix(v):
-    zero = np.zeros(len(v))
-    rows = [zero, -v[:, 2], v[:, 1], v[:, 2], zero, -v[:, 0], -v[:, 1], v[:, 0], zero]
-    return np.stack(rows, 1).reshape(-1, 3, 3)
-
-
-class Body:
-    """Forces and their tangent. Every term has rows of nodes; blocks are summed by np.add.at."""
-
-    def __init__(self, arrays):
-        self.n = len(arrays["nodes"])
-        springs, mid = arrays["springs"], arrays["midlines"]
-        # A spring's vector is a weighted sum of nodes: two of them, or the eight of a midline.
-        self.groups = []
-        if len(springs):
-            weights = np.tile([-1.0, 1.0], (len(springs), 1))
-            self.groups.append((springs[:, :2].astype(int), weights, springs[:, 2:]))
-        if len(mid):
-            upper = np.arange(8)[None, :] >> mid[:, 8].astype(int)[:, None] & 1
-            self.groups.append((mid[:, :8].astype(int), np.where(upper, 0.25, -0.25), mid[:, 9:]))
-        self.volumes = []
-        hexahedra = arrays["volume_hexahedra"]
-        # A volume is a sum over triangles; that under a bilinear face is the mean of its two triangulations.
-        halves = [t for a, b, c, d in FACES for t in ((a, b, c), (a, c, d), (a, b, d), (b, c, d))]
-        if len(hexahedra):
-            self.volumes.append((hexahedra[:, :8].astype(int), halves, 0.5, hexahedra[:, 8:]))
-        # A patch's volume is a quarter of its tetrahedra's.
-        patches = arrays["volume_patch_tetrahedra"].astype(int)
-        self.patches = (patches[:, 0], patches[:, 1:], arrays["volume_patches"])
-        tets = arrays["biquadratic_tetrahedra"]
-        self.tets = (tets[:, :4].astype(int), tets[:, 4:40].reshape(-1, 6, 6), tets[:, 40:])
-
-    def evaluate(self, x, clamp=False):
-        """Internal force, minus the gradient of the energy, and the tangent, its second derivative. Clamped:
-        without the parts that may be negative."""
-        force, tangent = np.zeros((self.n, 3)), np.zeros((self.n, self.n, 3, 3))
-        for nodes, weights, (k, rest, law, parameter) in ((n, w, p.T) for n, w, p in self.groups):
-            d = np.einsum("sa,sai->si", weights, x[nodes])
-            length = np.linalg.norm(d, axis=1)
-            q = length / rest
-            power = law == 1  # tension k l0 q^p ln q; Hooke's k (l - l0)
-            tension = np.where(power, k * rest * q**parameter * np.log(q), k * (length - rest))
-            slope = np.where(power, k * q ** (parameter - 1) * (parameter * np.log(q) + 1), k)
-            across = tension / length
-            if clamp:
-                slope, across = np.maximum(slope, 0), np.maximum(across, 0)
-            n = d / length[:, None]
-            nn = n[:, :, None] * n[:, None, :]
-            block = slope[:, None, None] * nn + across[:, None, None] * (np.eye(3) - nn)
-            pull = (tension / length)[:, None] * d
-            for a in range(weights.shape[1]):
-                np.add.at(force, nodes[:, a], -weights[:, a, None] * pull)
-                for b in range(weights.shape[1]):
-                    both = (weights[:, a] * weights[:, b])[:, None, None]
-                    np.add.at(tangent, (nodes[:, a], nodes[:, b]), both * block)
-        for nodes, triangles, part, (k, rest, logarithmic) in ((n, t, w, p.T) for n, t, w, p in self.volumes):
-            self.add_volumes(x, nodes, triangles, part, k, rest, logarithmic, force, tangent, clamp)
-        self.add_patches(x, force, tangent, clamp)
-        self.add_tetrahedra(x, force, tangent, clamp)
-        return force, tangent
-
-    @staticmethod
-    def add_volumes(x, nodes, triangles, part, k, rest, logarithmic, force, tangent, clamp):
-        at, n_vertices = x[nodes], nodes.shape[1]
-        volume = np.zeros(len(nodes))
-        gradient = np.zeros((len(nodes), n_vertices, 3))
-        second = np.zeros((len(nodes), n_vertices, n_vertices, 3, 3))
-        for a, b, c in triangles:  # a . (b x c) / 6
-            volume += part / 6 * np.einsum("si,si->s", at[:, a], np.cross(at[:, b], at[:, c]))
-            for p, q, r in ((a, b, c), (b, c, a), (c, a, b)):
-                gradient[:, p] += part / 6 * np.cross(at[:, q], at[:, r])
-                second[:, p, q] -= part / 6 * cross_matrix(at[:, r])
-                second[:, p, r] += part / 6 * cross_matrix(at[:, q])
-        ratio = volume / rest
-        pressure = k * np.where(logarithmic == 1, np.log(ratio), ratio - 1)
-        slope = k / rest * np.where(logarithmic == 1, 1 / ratio, 1)
-        for a in range(n_vertices):
-            np.add.at(force, nodes[:, a], -pressure[:, None] * gradient[:, a])
-            for b in range(n_vertices):
-                block = slope[:, None, None] * gradient[:, a, :, None] * gradient[:, b, None, :]
-                if not clamp:
-                    block = block + pressure[:, None, None] * second[:, a, b]
-                np.add.at(tangent, (nodes[:, a], nodes[:, b]), block)
-
-    def add_patches(self, x, force, tangent, clamp):
-        """Pressures of the volumes around nodes, each of which pulls at all nodes of its tetrahedra."""
-        of, nodes, laws = self.patches
-        if not len(laws):
-            return
-        k, rest, logarithmic = laws.T
-        at = x[nodes]
-        volume, gradient = np.zeros(len(laws)), np.zeros((len(laws), self.n, 3))
-        second = np.zeros((len(nodes), 4, 4, 3, 3))
-        for a, b, c in TETRAHEDRON_FACES:  # a . (b x c) / 6 of each face, a quarter of it
-            np.add.at(volume, of, np.einsum("si,si->s", at[:, a], np.cross(at[:, b], at[:, c])) / 24)
-            for p, q, r in ((a, b, c), (b, c, a), (c, a, b)):
-                np.add.at(gradient, (of, nodes[:, p]), np.cross(at[:, q], at[:, r]) / 24)
-                second[:, p, q] -= cross_matrix(at[:, r]) / 24
-                second[:, p, r] += cross_matrix(at[:, q]) / 24
-        ratio = volume / rest
-        pressure = k * np.where(logarithmic == 1, np.log(ratio), ratio - 1)
-        slope = k / rest * np.where(logarithmic == 1, 1 / ratio, 1)
-        force -= np.einsum("p,pni->ni", pressure, gradient)
-        tangent += np.einsum("p,pni,pmj->nmij", slope, gradient, gradient, optimize=True)
-        if not clamp:
-            for a in range(4):
-                for b in range(4):
-                    np.add.at(tangent, (nodes[:, a], nodes[:, b]), pressure[of, None, None] * second[:, a, b])
-
-    def add_tetrahedra(self, x, force, tangent, clamp):
-        """W = 1/2 sum_ef K_ef D_e D_f, D_e = l_e^2 - L_e^2."""
-        nodes, stiffness, rest = self.tets
-        if not len(nodes):
-            return
-        d = np.stack([x[nodes[:, b]] - x[nodes[:, a]] for a, b in EDGES], 1)
-        change = np.einsum("sei,sei->se", d, d) - rest**2
-        stress = np.einsum("sef,sf->se", stiffness, change)
-        for e, (a, b) in enumerate(EDGES):
-            pull = 2 * stress[:, e, None] * d[:, e]
-            np.add.at(force, nodes[:, a], pull)
-            np.add.at(force, nodes[:, b], -pull)
-            for f, (g, h) in enumerate(EDGES):
-                block = 4 * stiffness[:, e, f, None, None] * d[:, e, :, None] * d[:, f, None, :]
-                if e == f:
-                    s = np.maximum(stress[:, e], 0) if clamp else stress[:, e]
-                    block = block + 2 * s[:, None, None] * np.eye(3)
-                for p, sign in ((a, -1), (b, 1)):
-                    for r, other in ((g, -1), (h, 1)):
-                        np.add.at(tangent, (nodes[:, p], nodes[:, r]), sign * other * block)
+def evaluate(body, x, clamp=False):
+    """Internal forces and their whole tangent, minus their derivative."""
+    tangent = np.zeros((body.n, body.n, 3, 3))
+    for nodes, _, blocks in body.terms(x):
+        np.add.at(tangent, (nodes[:, :, None], nodes[:, None, :]), blocks(clamp))
+    return body.forces(x), tangent
 
 
 class Scene:
@@ -247,7 +120,7 @@ def come_to_rest(scene):
         target = scene.supports(0) * part / n_parts
         u[scene.held] = target
         if part == 1 and n_parts > 1:  # the body follows linearly at first
-            tangent = flat(scene.body.evaluate(scene.rest)[1])
+            tangent = flat(evaluate(scene.body, scene.rest)[1])
             free = scene.is_free
             pull = -tangent[np.ix_(free, scene.held)] @ (target - before)
             u[free] = np.linalg.solve(tangent[np.ix_(free, free)], pull)
@@ -256,7 +129,7 @@ def come_to_rest(scene):
             u[scene.held] = target
 
         def residual(at, clamp, share=part / n_parts):
-            force, tangent = scene.body.evaluate(scene.rest + at.reshape(-1, 3), bool(clamp))
+            force, tangent = evaluate(scene.body, scene.rest + at.reshape(-1, 3), bool(clamp))
             return force.ravel() + share * load, flat(tangent)
 
         u = scene.solve(u, residual, np.linalg.norm(load))
@@ -270,14 +143,14 @@ def move(scene):
     mass = np.repeat(scene.mass, 3)
     damping = np.diag(np.repeat(scene.arrays["mass_damping"][:, 0], 3))
     if header["stiffness_damping"]:
-        damping = damping + header["stiffness_damping"] * flat(scene.body.evaluate(scene.rest)[1])
+        damping = damping + header["stiffness_damping"] * flat(evaluate(scene.body, scene.rest)[1])
     yield times[0], u
     for frame, (t0, t) in enumerate(zip(times, times[1:]), 1):
         h, start = t - t0, u
         load = scene.load(t).ravel()
 
         def residual(at, clamp):
-            force, tangent = scene.body.evaluate(scene.rest + at.reshape(-1, 3), bool(clamp))
+            force, tangent = evaluate(scene.body, scene.rest + at.reshape(-1, 3), bool(clamp))
             inertia = mass * ((at - start) / h - v) / h
             return (force.ravel() + load - inertia - damping @ (at - start) / h,
                     flat(tangent) + np.diag(mass / h**2) + damping / h)

@@ -30,7 +30,8 @@ int export_case(const ExportOptions& options) {
   check_expressible(target, name, problem, motion); // before there is a folder
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
-  const std::vector<std::string> said = export_springs(options.out, target, name, problem, motion);
+  const std::vector<std::string> said =
+      export_springs(options.out, target, name, problem, exported_body(scene), motion);
   for (const std::string& line : said) write_paragraph(std::cout, line, "", "  ");
   for (const std::string& warning : design_for(scene).warnings)
     write_paragraph(std::cout, warning, "warning: ", "  ");

@@ -2,6 +2,7 @@
 
 #include "cases/case/error.hpp"
 #include "cases/scene/loads.hpp"
+#include "compare/export/lattice_arrays.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/json.hpp"
 #include "msm/problem.hpp"
@@ -13,25 +14,14 @@ namespace springproof::compare {
 namespace {
 
 // A scene has mm, N, MPa and t; the message has m, N, Pa and kg.
-constexpr double metres = 1e-3, pascals = 1e6, newtons_per_metre = 1e3, kilograms = 1e3;
-
-struct Array {
-  std::size_t columns;
-  std::vector<double> values{};
-
-  template<class Nodes>
-  void add_nodes(const Nodes& nodes) {
-    for (const int node : nodes) values.push_back(node);
-  }
-  void add(std::initializer_list<double> some) { values.insert(values.end(), some); }
-};
+constexpr double metres = 1e-3, pascals = 1e6, kilograms = 1e3;
 
 /// A message as it grows.
 struct Message {
   Json header, list = Json::array();
   std::string bytes{};
 
-  void add(const std::string& name, const Array& array) {
+  void add(const std::string& name, const NumberArray& array) {
     list.push_back({{"name", name}, {"shape", {array.values.size() / array.columns, array.columns}}});
     bytes.append(reinterpret_cast<const char*>(array.values.data()), array.values.size() * sizeof(double));
   }
@@ -41,64 +31,8 @@ struct Message {
   }
 };
 
-/// Law (0 Hooke, 1 power-log) and its parameter.
-void add_law(Array& array, const msm::SpringLaw& law) {
-  array.add({law.kind == msm::LawKind::power_log ? 1. : 0., law.parameter});
-}
-
-/// k_v, volume at rest, whether it is logarithmic: of a cell or of a node's tetrahedra.
-template<class Term>
-void add_volume_law(Array& array, const Term& term) {
-  array.add(
-      {term.stiffness * pascals, term.rest_volume * metres * metres * metres, term.is_logarithmic ? 1. : 0.});
-}
-
-void add_volume_terms(Message& message, const msm::Lattice& lattice) {
-  Array hexahedra{11}, patches{3}, tetrahedra{5};
-  for (const msm::VolumeCell& cell : lattice.volume_cells) {
-    hexahedra.add_nodes(cell.nodes);
-    add_volume_law(hexahedra, cell);
-  }
-  for (std::size_t p = 0; p < lattice.volume_patches.size(); ++p) {
-    const msm::VolumePatch& patch = lattice.volume_patches[p];
-    add_volume_law(patches, patch);
-    for (const std::array<int, 4>& places : patch.tetrahedra) {
-      tetrahedra.add({double(p)});
-      for (const int place : places) tetrahedra.add({double(patch.nodes[cases::index(place)])});
-    }
-  }
-  message.add("volume_hexahedra", hexahedra);
-  message.add("volume_patches", patches);
-  message.add("volume_patch_tetrahedra", tetrahedra);
-}
-
-void add_lattice(Message& message, const msm::Lattice& lattice) {
-  Array springs{6}, midlines{13}, tetrahedra{46};
-  for (const msm::Link& link : lattice.links) {
-    springs.add({double(link.i), double(link.j), link.spring.stiffness * newtons_per_metre,
-                 link.spring.rest_length * metres});
-    add_law(springs, link.spring.law);
-  }
-  for (const msm::Midline& midline : lattice.midlines) {
-    midlines.add_nodes(midline.nodes);
-    midlines.add({double(midline.axis), midline.spring.stiffness * newtons_per_metre,
-                  midline.spring.rest_length * metres});
-    add_law(midlines, midline.spring.law);
-  }
-  for (const msm::Tetrahedron& one : lattice.tetrahedra) {
-    tetrahedra.add_nodes(one.nodes);
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j) tetrahedra.add({one.stiffness(i, j) * 1e9}); // N/m³
-    for (int i = 0; i < 6; ++i) tetrahedra.add({one.rest_lengths[i] * metres});
-  }
-  message.add("springs", springs);
-  message.add("midlines", midlines);
-  message.add("biquadratic_tetrahedra", tetrahedra);
-  add_volume_terms(message, lattice);
-}
-
 void add_mesh(Message& message, const cases::Scene& scene) {
-  Array nodes{3}, cells{scene.mesh.shape == cases::CellShape::tetrahedron ? 4u : 8u}, materials{4};
+  NumberArray nodes{3}, cells{scene.mesh.shape == cases::CellShape::tetrahedron ? 4u : 8u}, materials{4};
   for (const Eigen::Vector3d& x : scene.mesh.nodes)
     nodes.add({x.x() * metres, x.y() * metres, x.z() * metres});
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) cells.add_nodes(scene.mesh.cells[c]);
@@ -128,7 +62,7 @@ void add_loads(Message& message, const cases::Scene& scene) {
       gravity.push_back({{"acceleration", {g.x(), g.y(), g.z()}}, {"history", history}});
       continue;
     }
-    Array forces{4};
+    NumberArray forces{4};
     for (const auto& [node, force] : cases::loaded_nodes(scene, {applied}))
       forces.add({double(node), force.x(), force.y(), force.z()});
     const std::string name = "load_" + std::to_string(loads.size());
@@ -143,7 +77,7 @@ void add_loads(Message& message, const cases::Scene& scene) {
 void add_supports(Message& message, const cases::Scene& scene, const std::vector<double>& times) {
   const bool moves = scene.definition.dynamics.has_value();
   msm::Problem problem = moves ? msm::make_moving_problem(scene) : msm::make_problem(scene);
-  Array supports{2}, motion{0};
+  NumberArray supports{2}, motion{0};
   for (std::size_t dof = 0; dof < problem.is_constrained.size(); ++dof)
     if (problem.is_constrained[dof]) supports.add({double(dof / 3), double(dof % 3)});
   motion.columns = std::max<std::size_t>(1, supports.values.size() / 2);
@@ -199,8 +133,9 @@ std::string scene_message(const cases::Scene& scene, const ClientBudget& budget)
                                 {"gamma", dynamics->scheme.gamma},
                                 {"rho_infinity", dynamics->scheme.rho_infinity}};
   add_mesh(message, scene);
-  add_lattice(message, msm::make_lattice(scene.mesh, springs_as_solved(scene, design_for(scene))));
-  Array mass{1}, damping{1};
+  const msm::Lattice lattice = msm::make_lattice(scene.mesh, springs_as_solved(scene, design_for(scene)));
+  for (const NamedArray& one : lattice_arrays(lattice, {metres, 1})) message.add(one.name, one.array);
+  NumberArray mass{1}, damping{1};
   for (const double one : cases::point_masses(scene)) mass.add({one * kilograms});
   for (const double one : cases::point_mass_damping(scene)) damping.add({one * kilograms});
   message.add("mass", mass);

@@ -2,6 +2,8 @@
 
 #include "cases/case/error.hpp"
 #include "cases/scene/loads.hpp"
+#include "compare/export/package.hpp"
+#include "compare/measure/surfaces.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/write.hpp"
@@ -37,11 +39,6 @@ std::optional<double> exponent_of(const msm::Spring& spring) {
     break;
   }
   return spring.law.parameter;
-}
-
-std::ptrdiff_t n_power_log(const msm::Lattice& lattice) {
-  return std::count_if(lattice.links.begin(), lattice.links.end(),
-                       [](const msm::Link& link) { return exponent_of(link.spring).has_value(); });
 }
 
 /// Finds every link's kind among the springs of the mesh's cells: 1 an edge, 2 a face diagonal, 3 an internal
@@ -93,15 +90,8 @@ std::string midlines_text(const msm::Problem& problem) {
 std::vector<std::string> inexpressible(ExportTarget target, const msm::Problem& problem) {
   const msm::Lattice& lattice = problem.lattice;
   std::vector<std::string> all;
-  if (target != ExportTarget::csv && !lattice.tetrahedra.empty())
+  if (target == ExportTarget::vtu && !lattice.tetrahedra.empty())
     all.push_back(fmt::format("{} tetrahedra of biquadratic springs", lattice.tetrahedra.size()));
-  if (target != ExportTarget::sofa) return all;
-  if (!lattice.midlines.empty()) all.push_back(midlines_text(problem));
-  if (!lattice.volume_cells.empty())
-    all.push_back(fmt::format("the volume terms of {} cells", lattice.volume_cells.size()));
-  if (!lattice.volume_patches.empty())
-    all.push_back(fmt::format("the volume terms at {} nodes", lattice.volume_patches.size()));
-  if (const auto n = n_power_log(lattice); n > 0) all.push_back(fmt::format("{} power-log springs", n));
   return all;
 }
 
@@ -114,15 +104,15 @@ void write_springs_csv(const std::string& folder, const msm::Lattice& lattice) {
   });
 }
 
-void write_nodes_csv(const std::string& folder, const msm::Problem& problem) {
+void write_nodes_csv(const std::string& folder, const msm::Problem& problem, const ExportedBody& body) {
   const msm::Points displacement = prescribed(problem), force = problem.on_all_points(problem.force);
   write_csv_file(folder + "/nodes.csv", [&](CsvWriter& csv) {
     csv.row("node", "x_mm", "y_mm", "z_mm", "constrained_x", "constrained_y", "constrained_z",
             "displacement_x_mm", "displacement_y_mm", "displacement_z_mm", "force_x_N", "force_y_N",
-            "force_z_N");
+            "force_z_N", "mass_kg");
     for (std::size_t n = 0; n < problem.lattice.rest.size(); ++n)
       csv.row(n, exact(problem.lattice.rest[n]), constrained(problem, n), exact(displacement[n]),
-              exact(force[n]));
+              exact(force[n]), exact(body.mass.empty() ? 0 : 1e3 * body.mass[n]));
   });
 }
 
@@ -177,33 +167,43 @@ void write_tetrahedra_csv(const std::string& folder, const msm::Lattice& lattice
   });
 }
 
-std::vector<std::string> write_csv_files(const std::string& folder, const msm::Problem& problem) {
+std::vector<std::string> write_csv_files(const std::string& folder, const msm::Problem& problem,
+                                         const ExportedBody& body) {
   const msm::Lattice& lattice = problem.lattice;
-  write_nodes_csv(folder, problem);
+  write_nodes_csv(folder, problem, body);
   write_volume_terms_csv(folder, lattice);
   write_tetrahedra_csv(folder, lattice);
   if (!lattice.midlines.empty()) write_midlines_csv(folder, lattice);
   if (!lattice.volume_patches.empty()) write_volume_patches_csv(folder, lattice);
+  if (!lattice.volume_cells.empty()) write_volume_tetrahedra_csv(folder, lattice);
   write_springs_csv(folder, lattice);
-  const std::size_t n_others = lattice.volume_cells.size() + lattice.tetrahedra.size() +
-                               lattice.midlines.size() + lattice.volume_patches.size();
   const auto n_negative = std::count_if(lattice.links.begin(), lattice.links.end(),
                                         [](const msm::Link& link) { return link.spring.stiffness < 0; });
   std::vector<std::string> said{
       fmt::format("springs.csv: {} springs", lattice.links.size()),
-      fmt::format("nodes.csv: {} nodes with supports and loads", lattice.rest.size()),
+      fmt::format("nodes.csv: {} nodes with supports, loads and masses", lattice.rest.size()),
       fmt::format("volume_terms.csv: {} cells", lattice.volume_cells.size()),
       fmt::format("tetrahedra.csv: {} tetrahedra of biquadratic springs", lattice.tetrahedra.size())};
+  if (!lattice.volume_cells.empty())
+    said.push_back(
+        fmt::format("volume_tetrahedra.csv: {} tetrahedra in place of the volume terms, for engines "
+                    "that have no other constraints of volume; stiffer, as each keeps its own",
+                    6 * lattice.volume_cells.size()));
   if (!lattice.midlines.empty())
     said.push_back(
         fmt::format("midlines.csv: {} springs between means of four nodes", lattice.midlines.size()));
   if (!lattice.volume_patches.empty())
     said.push_back(fmt::format("volume_patches.csv: the tetrahedra around {} nodes with volume terms",
                                lattice.volume_patches.size()));
-  if (n_others > 0) said.push_back("design = \"network\" reads springs.csv alone, not the other terms");
+  if (n_other_terms(lattice) > 0)
+    said.push_back("design = \"network\" reads springs.csv alone, not the other terms");
   if (n_negative > 0)
     said.push_back(
         fmt::format("{} springs have a negative stiffness, which design = \"network\" refuses", n_negative));
+  if (!body.skin.vertices.empty()) said.push_back(write_skin_csv(folder, body.skin));
+  said.push_back(write_references(folder, lattice, 1));
+  copy_program(folder, "export", "Forces.cs", "Forces.cs");
+  said.emplace_back("Forces.cs: the same forces in C#");
   return said;
 }
 
@@ -279,6 +279,10 @@ std::optional<ExportedMotion> exported_motion(const cases::Scene& scene) {
   return motion;
 }
 
+ExportedBody exported_body(const cases::Scene& scene) {
+  return {cases::point_masses(scene), embedded_surface(scene)};
+}
+
 void check_expressible(ExportTarget target, const std::string& name, const msm::Problem& problem,
                        const std::optional<ExportedMotion>& motion) {
   const auto refuse = [&](const std::vector<std::string>& missing, const std::string& advice) {
@@ -296,15 +300,18 @@ void check_expressible(ExportTarget target, const std::string& name, const msm::
 
 std::vector<std::string> export_springs(const std::string& folder, ExportTarget target,
                                         const std::string& name, const msm::Problem& problem,
+                                        const ExportedBody& body,
                                         const std::optional<ExportedMotion>& motion) {
   if (target == ExportTarget::sofa)
-    return write_sofa_files(folder, name, problem, motion ? &*motion : nullptr);
+    return write_sofa_files(folder, name, problem, body, motion ? &*motion : nullptr);
+  const bool is_csv = target == ExportTarget::csv;
   std::vector<std::string> said =
-      target == ExportTarget::csv ? write_csv_files(folder, problem) : write_vtu_file(folder, problem);
+      is_csv ? write_csv_files(folder, problem, body) : write_vtu_file(folder, problem);
   if (motion)
-    said.emplace_back(
-        "not in it: masses, damping, steps and histories of [dynamics] (--to sofa writes them); "
-        "loads and motions are those at a factor of 1");
+    said.push_back(
+        fmt::format("not in it: {}damping, steps and histories of [dynamics] (--to sofa writes them); "
+                    "loads and motions are those at a factor of 1",
+                    is_csv ? "" : "masses, "));
   return said;
 }
 

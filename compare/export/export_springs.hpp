@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/case/names.hpp"
+#include "mechanics/surface/embedded_surface.hpp"
 #include "msm/moving_springs.hpp"
 
 /// A case's designed springs for other programs, as an explicit list. No force is left out in silence: what a
@@ -27,6 +28,13 @@ msm::Problem exported_problem(const cases::Scene& scene);
 /// @throws SolveError where a motion begins in an equilibrium that is not found
 std::optional<ExportedMotion> exported_motion(const cases::Scene& scene);
 
+/// What files have of a body beside its springs, supports and loads.
+struct ExportedBody {
+  std::vector<double> mass{};        ///< t, one per point; 0 where the case gives no density
+  mechanics::EmbeddedSurface skin{}; ///< the case's surface, or else the outside of the cells
+};
+ExportedBody exported_body(const cases::Scene& scene);
+
 /// @param name  the case's name
 /// @throws InputError if the target cannot express the springs or their motion, listing all that it cannot;
 /// targets for files take any motion, and say what they leave out
@@ -34,13 +42,14 @@ void check_expressible(ExportTarget target, const std::string& name, const msm::
                        const std::optional<ExportedMotion>& motion = {});
 
 /// Writes the files of a target, each whole or not at all:
-///   csv   springs.csv as design = "network" reads it; nodes.csv, volume_terms.csv, tetrahedra.csv
+///   csv   springs.csv as design = "network" reads it; nodes.csv, volume_terms.csv, tetrahedra.csv; the skin
 ///   sofa  scene.py and scene.json: write_sofa_files()
 ///   vtu   springs.vtu: lines with stiffness, rest length and kind; supports and loads at points
 /// @param problem  which the target can express (check_expressible)
 /// @return what was written, and what the files do not hold, a line each
 std::vector<std::string> export_springs(const std::string& folder, ExportTarget target,
                                         const std::string& name, const msm::Problem& problem,
+                                        const ExportedBody& body = {},
                                         const std::optional<ExportedMotion>& motion = {});
 
 /// 1 in the components in which a node is constrained, else 0.
@@ -57,6 +66,7 @@ std::vector<std::string> inexpressible_in_sofa(const ExportedMotion& motion);
 /// @param name    the case's name   @param motion  null: the equilibrium under the full load
 /// @return what was written, and what differs in SOFA, a line each
 std::vector<std::string> write_sofa_files(const std::string& folder, const std::string& name,
-                                          const msm::Problem& problem, const ExportedMotion* motion);
+                                          const msm::Problem& problem, const ExportedBody& body,
+                                          const ExportedMotion* motion);
 
 } // namespace springproof::compare

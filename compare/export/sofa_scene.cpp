@@ -1,6 +1,6 @@
 #include "compare/export/export_springs.hpp"
+#include "compare/export/package.hpp"
 
-#include "cases/case/installation.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/table/json.hpp"
 
@@ -79,8 +79,36 @@ Json motion_to_json(const ExportedMotion& motion, const msm::Points& rest) {
           {"moved", moved}};
 }
 
+/// Rows of numbers as an array of arrays.
+void write_rows(std::ostream& out, const NumberArray& rows) {
+  const char* comma = "";
+  out << "[";
+  for (auto row = rows.values.begin(); row != rows.values.end(); row += std::ptrdiff_t(rows.columns))
+    fmt::print(out, "{}\n[{}]", std::exchange(comma, ","),
+               fmt::join(row, row + std::ptrdiff_t(rows.columns), ", "));
+  out << "]";
+}
+
+/// What SpringForceField does not have, as arrays of a client's scene; mm and mN.
+void write_terms(std::ostream& out, const msm::Lattice& others) {
+  const char* comma = "";
+  out << ",\n\"terms\": {";
+  for (const auto& [name, array] : lattice_arrays(others, {1, thousand})) {
+    fmt::print(out, "{}\n\"{}\": ", std::exchange(comma, ","), name);
+    write_rows(out, array);
+  }
+  out << "}";
+}
+
+/// Vertex, node, weight; and triangles.
+void write_skin(std::ostream& out, const mechanics::EmbeddedSurface& skin) {
+  out << ",\n\"skin\": {\"weights\": ";
+  write_rows(out, skin_weights(skin));
+  out << ",\n\"triangles\": " << Json(skin.rest.triangles).dump() << "}";
+}
+
 void write_json(std::ostream& out, const std::string& name, const msm::Problem& problem,
-                const ExportedMotion* motion) {
+                const ExportedBody& body, const ExportedMotion* motion) {
   const char* comma = "";
   const auto begin_list = [&](const char* key) {
     fmt::print(out, ",\n\"{}\": [", key);
@@ -88,7 +116,7 @@ void write_json(std::ostream& out, const std::string& name, const msm::Problem& 
   };
   const auto next = [&] { out << std::exchange(comma, ",") << "\n"; };
   const msm::Points& rest = problem.lattice.rest;
-  out << "{\"schema\": 2,\n\"case\": "
+  out << "{\"schema\": 3,\n\"case\": "
       << nlohmann::json(name).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)
       << ",\n\"units\": \"mm, mN, kg, s\"";
   begin_list("positions");
@@ -102,9 +130,17 @@ void write_json(std::ostream& out, const std::string& name, const msm::Problem& 
       next(), fmt::print(out, "[{}, {}, {}, {}]", n, u.x(), u.y(), u.z());
   out << "]";
   begin_list("springs"); // node, node, mN/mm, mm
-  for (const auto& [i, j, spring] : problem.lattice.links)
-    next(), fmt::print(out, "[{}, {}, {}, {}]", i, j, thousand * spring.stiffness, spring.rest_length);
+  msm::Lattice others = problem.lattice;
+  others.links.clear();
+  for (const msm::Link& link : problem.lattice.links)
+    if (link.spring.law.kind == msm::LawKind::hooke)
+      next(), fmt::print(out, "[{}, {}, {}, {}]", link.i, link.j, thousand * link.spring.stiffness,
+                         link.spring.rest_length);
+    else
+      others.links.push_back(link);
   out << "]";
+  write_terms(out, others);
+  write_skin(out, body.skin);
   begin_list("supports");
   for (const auto& [components, nodes] : supports(problem))
     next(), fmt::print(out, "{{\"directions\": [{}], \"nodes\": [{}]}}", fmt::join(components, ", "),
@@ -140,17 +176,23 @@ std::vector<std::string> inexpressible_in_sofa(const ExportedMotion& motion) {
 }
 
 std::vector<std::string> write_sofa_files(const std::string& folder, const std::string& name,
-                                          const msm::Problem& problem, const ExportedMotion* motion) {
-  write_file(folder + "/scene.json", [&](std::ostream& out) { write_json(out, name, problem, motion); });
-  const std::string program = read_file(cases::data_folder("export") + "/sofa_scene.py");
-  write_file(folder + "/scene.py", [&](std::ostream& out) { out << program; });
+                                          const msm::Problem& problem, const ExportedBody& body,
+                                          const ExportedMotion* motion) {
+  write_file(folder + "/scene.json",
+             [&](std::ostream& out) { write_json(out, name, problem, body, motion); });
+  copy_program(folder, "export", "sofa_scene.py", "scene.py");
+  const std::size_t n_terms = n_other_terms(problem.lattice);
   std::vector<std::string> said{
       fmt::format("scene.json: {} nodes, {} springs, supports, loads{}; mm, mN, kg, s",
                   problem.lattice.rest.size(), problem.lattice.links.size(),
                   motion ? fmt::format(", masses, damping, steps of {} s by {}", motion->dynamics.step,
                                        cases::name_of(motion->dynamics.scheme.scheme))
                          : std::string(", in equilibrium")),
-      "scene.py: reads scene.json; runSofa scene.py (SOFA v25.06 or newer, with SofaPython3)"};
+      "scene.py: reads scene.json; runSofa scene.py (SOFA v25.06 or newer, with SofaPython3)",
+      write_references(folder, problem.lattice, thousand)};
+  if (n_terms > 0)
+    said.push_back(fmt::format(
+        "{} terms that no component of SOFA has are a force field in numpy, in scene.py", n_terms));
   if (motion && motion->stiffness_damping > 0)
     said.emplace_back(
         "stiffness_damping is of the body as it is in SOFA, of the body at rest here: motions of "

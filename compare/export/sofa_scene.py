@@ -6,8 +6,9 @@ mm, forces in mN, stiffnesses in mN/mm, masses in kg and times in s, which go to
 For SOFA v25.06 or newer, with SofaPython3. Earlier versions have no NewtonRaphsonSolver, which StaticSolver and BDFOdeSolver solve their
 equations with, and before v24.12 SpringForceField had no stiffness matrix (StiffSpringForceField had).
 
-Every spring is in one list, with its own stiffness and rest length. SOFA's RegularGridSpringForceField is no substitute: it gives
-the springs at the boundary of a grid the stiffness of those inside, where they belong to half as many cells, or a quarter.
+Every spring of Hooke's law is in one list, with its own stiffness and rest length. SOFA's RegularGridSpringForceField is no substitute: it gives
+the springs at the boundary of a grid the stiffness of those inside, where they belong to half as many cells, or a quarter. What no component of SOFA has is
+a force field in numpy: springs of other laws, midlines, volume terms and biquadratic tetrahedra, whose forces are in forces.py beside this file.
 
 A static case is in equilibrium after the first step of the animation. A case in time takes a step of its own length with every step of the
 animation: BDFOdeSolver of order 1 is the implicit Euler method, of order 2 bdf2, whose first step is one of order 1. Linear systems are
@@ -17,11 +18,19 @@ factorised. CGLinearSolver is no substitute as it comes: its threshold of 1e-9 b
 import json
 import math
 import os
+import sys
+
+import numpy as np
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, FOLDER)
+import forces
 
 TOLERANCE = 1e-8  # residual relative to the scene's own forces
 PLUGINS = ["Sofa.Component.Constraint.Projective", "Sofa.Component.LinearSolver.Direct", "Sofa.Component.Mass",
            "Sofa.Component.MechanicalLoad", "Sofa.Component.ODESolver.Backward", "Sofa.Component.SolidMechanics.Spring",
-           "Sofa.Component.StateContainer", "Sofa.Component.Topology.Container.Dynamic", "Sofa.Component.Visual"]
+           "Sofa.Component.StateContainer", "Sofa.Component.Topology.Container.Dynamic", "Sofa.Component.Visual",
+           "Sofa.GL.Component.Rendering3D"]
 
 
 def factor_at(history, time):
@@ -52,18 +61,72 @@ def displacement_of(moved, rest, part, factor):
 
 
 def size_of_forces(model):
-    """mN: norm of all loads; where there is none, of what the springs at moved nodes would have to bear."""
+    """mN: norm of all loads; where there is none, of the forces when moved nodes alone have moved, by less where cells would turn inside out."""
     motion = model["motion"]
     loads = [load for part in motion["loads"] for load in part["forces"]] if motion else model["loads"]
     squared = sum(f * f for load in loads for f in load[1:])
-    if squared == 0:
-        far = {node: u for node, *u in model["start"]}
-        for moved in motion["moved"] if motion else []:
-            for node, part in zip(moved["nodes"], moved["parts"]):
-                far[node] = displacement_of(moved, model["positions"][node], part, 1)
-        squared = sum((stiffness * u) ** 2 for a, b, stiffness, _ in model["springs"] if (a in far) != (b in far)
-                      for u in (far[a] if a in far else far[b]))
-    return math.sqrt(squared)
+    if squared > 0:
+        return math.sqrt(squared)
+    lattice = forces.Body(forces.read_package(FOLDER))
+    far = np.zeros(lattice.rest.shape)
+    for node, *u in model["start"]:
+        far[node] = u
+    for moved in motion["moved"] if motion else []:
+        for node, part in zip(moved["nodes"], moved["parts"]):
+            far[node] = displacement_of(moved, model["positions"][node], part, 1)
+    for halvings in range(60):
+        size = float(np.linalg.norm(lattice.forces(lattice.rest + far / 2**halvings)))
+        if math.isfinite(size):
+            return size
+    return 0.0
+
+
+def terms_of(model):
+    """The terms that no component of SOFA has. Stiffness is that of the state whose forces were computed last, as in SOFA's own springs."""
+    import Sofa.Core
+
+    class Terms(Sofa.Core.ForceFieldVec3d):
+        def __init__(self, *args, **kwargs):
+            Sofa.Core.ForceFieldVec3d.__init__(self, *args, **kwargs)
+            self.lattice = forces.Body(forces.arrays_of(dict(model["terms"], nodes=model["positions"])))
+            self.at = self.lattice.rest
+
+        def addForce(self, parameters, force, position, velocity):
+            self.at = np.array(position.value)
+            with force.writeableArray() as array:
+                array += self.lattice.forces(self.at)
+
+        def addDForce(self, parameters, df, dx):
+            with df.writeableArray() as array:
+                array -= parameters["kFactor"] * self.lattice.stiffness_product(self.at, np.array(dx.value))
+
+        def addKToMatrix(self, parameters, n_nodes, n_components):
+            entries = self.lattice.stiffness(self.at)
+            entries[:, 2] *= -parameters["kFactor"]
+            return entries
+
+    return Terms(name="terms")
+
+
+def add_skin(body, model, state):
+    """A surface to look at, which moves as the nodes whose weighted sums its vertices are."""
+    import Sofa.Core
+
+    vertices, nodes, weights = np.array(model["skin"]["weights"], float).reshape(-1, 3).T
+    vertices, nodes = vertices.astype(int), nodes.astype(int)
+
+    def places():
+        all_places = np.zeros((vertices.max() + 1, 3))
+        np.add.at(all_places, vertices, weights[:, None] * np.array(state.position.value)[nodes])
+        return all_places
+
+    surface = body.addChild("skin").addObject("OglModel", name="surface", position=places().tolist(), triangles=model["skin"]["triangles"])
+
+    class Follow(Sofa.Core.Controller):
+        def onAnimateEndEvent(self, event):
+            surface.position.value = places()
+
+    body.addObject(Follow(name="follow"))
 
 
 def controller_of(model, state, fields):
@@ -115,8 +178,7 @@ def add_force_field(body, name, forces):
 
 
 def createScene(rootNode):
-    folder = os.path.dirname(os.path.abspath(__file__))
-    with open(os.path.join(folder, "scene.json"), encoding="ascii") as file:
+    with open(os.path.join(FOLDER, "scene.json"), encoding="ascii") as file:
         model = json.load(file)
     motion = model["motion"]
     rootNode.gravity = [0, 0, 0]  # a weight is among the loads
@@ -134,11 +196,14 @@ def createScene(rootNode):
     state = body.addObject("MechanicalObject", name="nodes", template="Vec3d", position=position, rest_position=model["positions"])
     if motion:  # masses need a topology; it has no part in the forces
         body.addObject("EdgeSetTopologyContainer", name="topology", position=model["positions"],
-                       edges=[spring[:2] for spring in model["springs"]])
+                       edges=[list(map(int, spring[:2])) for spring in model["springs"] + model["terms"]["springs"]])
         body.addObject("DiagonalMass", name="masses", template="Vec3d", topology="@topology", vertexMass=motion["masses"])
     # A spring: its two nodes, stiffness, damping and rest length.
     springs = " ".join(f"{a} {b} {stiffness!r} 0 {rest_length!r}" for a, b, stiffness, rest_length in model["springs"])
-    body.addObject("SpringForceField", name="springs", template="Vec3d", spring=springs)
+    if springs:
+        body.addObject("SpringForceField", name="springs", template="Vec3d", spring=springs)
+    if any(model["terms"].values()):
+        body.addObject(terms_of(model))
     for n, support in enumerate(model["supports"]):
         body.addObject("PartialFixedProjectiveConstraint", name=f"support_{n}", template="Vec3d", indices=support["nodes"],
                        fixedDirections=support["directions"])
@@ -148,4 +213,6 @@ def createScene(rootNode):
         fields = [add_force_field(body, f"load_{n}", load["forces"]) for n, load in enumerate(motion["loads"])]
         if motion["moved"] or any(load["history"] for load in motion["loads"]):
             body.addObject(controller_of(model, state, fields))
+    if model["skin"]["triangles"]:
+        add_skin(body, model, state)
     return rootNode

@@ -3,18 +3,18 @@
 rebuild_forces.py FOLDER sofa|csv|vtu STATE
 
 STATE has a line for each node: displacement (mm), internal force of the springs (N), constrained components (0 or 1), applied force (N),
-prescribed displacement (mm). Fails unless the files in FOLDER give the same forces, supports, loads and motions. Only Python's standard library is used, and nothing of the
-program: the formulas are those of docs/using/designs.md.
+prescribed displacement (mm). Fails unless the files in FOLDER give the same forces, supports, loads and motions. Nothing of the program is used but what is in FOLDER.
 """
 
 import csv
-import itertools
+import importlib
 import math
 import re
 import struct
 import sys
 from pathlib import Path
 
+import numpy as np
 import sofa_objects
 
 TOLERANCE = 1e-10  # relative to the largest force; files hold every digit, sums have another order
@@ -27,10 +27,6 @@ def minus(a, b):
 def add(force, node, vector, factor=1.0):
     for a in range(3):
         force[node][a] += factor * vector[a]
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 def dot(a, b):
@@ -47,82 +43,52 @@ def spring_force(force, x, i, j, stiffness, rest_length, exponent=None):
     add(force, j, d, -tension / length)
 
 
-def volume_gradient(x):
-    """Volume of the trilinear hexahedron by 2x2x2 Gauss points, and its gradient; vertex v = i + 2j + 4k at (i, j, k)."""
-    volume, gradient = 0.0, [[0.0] * 3 for _ in range(8)]
-    gauss = (0.5 - 0.5 / math.sqrt(3), 0.5 + 0.5 / math.sqrt(3))
-    for point in itertools.product(gauss, repeat=3):
-        slopes = []  # derivatives of the eight shape functions
-        for v in range(8):
-            bits = [v >> a & 1 for a in range(3)]
-            values = [p if b else 1 - p for p, b in zip(point, bits)]
-            signs = [1 if b else -1 for b in bits]
-            slopes.append([signs[0] * values[1] * values[2], values[0] * signs[1] * values[2], values[0] * values[1] * signs[2]])
-        columns = [[sum(slopes[v][a] * x[v][c] for v in range(8)) for c in range(3)] for a in range(3)]  # dx/dxi_a
-        cofactors = [cross(columns[(a + 1) % 3], columns[(a + 2) % 3]) for a in range(3)]
-        volume += dot(columns[0], cofactors[0]) / 8
-        for v in range(8):
-            for a in range(3):
-                for c in range(3):
-                    gradient[v][c] += slopes[v][a] * cofactors[a][c] / 8
-    return volume, gradient
-
-
-def rows_of(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def from_csv(folder, displacement):
-    nodes = rows_of(folder / "nodes.csv")
+    """Forces by the package's own forces.py."""
+    with open(folder / "nodes.csv", newline="") as file:
+        nodes = list(csv.DictReader(file))
     assert [int(n["node"]) for n in nodes] == list(range(len(nodes)))
-    triple = lambda row, name: [float(row[f"{name}_{a}"]) for a in ("x", "y", "z")]
-    x = [[float(n[f"{a}_mm"]) + u[i] for i, a in enumerate("xyz")] for n, u in zip(nodes, displacement)]
-    force = [[0.0] * 3 for _ in nodes]
-    for s in rows_of(folder / "springs.csv"):
-        spring_force(force, x, int(s["node_a"]), int(s["node_b"]), 1e-3 * float(s["stiffness_N_per_m"]), float(s["rest_length_mm"]),
-                     float(s["exponent"]) if s["exponent"] else None)
-    midlines = folder / "midlines.csv"
-    for m in rows_of(midlines) if midlines.exists() else []:  # between means of four nodes each
-        ends = [[int(m[f"node_{end}{v}"]) for v in range(4)] for end in "ab"]
-        centres = [[sum(x[n][a] for n in nodes) / 4 for a in range(3)] for nodes in ends]
-        of_ends = [[0.0] * 3 for _ in ends]
-        spring_force(of_ends, centres, 0, 1, 1e-3 * float(m["stiffness_N_per_m"]), float(m["rest_length_mm"]),
-                     float(m["exponent"]) if m["exponent"] else None)
-        for nodes_of_end, vector in zip(ends, of_ends):
-            for node in nodes_of_end:
-                add(force, node, vector, 0.25)
-    for cell in rows_of(folder / "volume_terms.csv"):
-        corners = [int(cell[f"node_{v}"]) for v in range(8)]
-        volume, gradient = volume_gradient([x[c] for c in corners])
-        ratio = volume / float(cell["rest_volume_mm3"])
-        pressure = float(cell["stiffness_MPa"]) * {"linear": ratio - 1, "logarithmic": math.log(ratio)}[cell["law"]]
-        for corner, slope in zip(corners, gradient):
-            add(force, corner, slope, -pressure)
-    edges = ["01", "02", "03", "12", "13", "23"]
-    for t in rows_of(folder / "tetrahedra.csv"):
-        corners = [int(t[f"node_{v}"]) for v in range(4)]
-        along = [minus(x[corners[int(e[1])]], x[corners[int(e[0])]]) for e in edges]
-        changes = [dot(d, d) - float(t[f"rest_length_{e}_mm"]) ** 2 for d, e in zip(along, edges)]
-        for d, e in zip(along, edges):
-            tension = sum(float(t[f"stiffness_{e}_{f}_N_per_mm3"]) * change for f, change in zip(edges, changes))
-            add(force, corners[int(e[0])], d, 2 * tension)
-            add(force, corners[int(e[1])], d, -2 * tension)
+    forces = forces_of(folder)
+    body = forces.Body(forces.read_package(folder))
     held = [[int(n[f"constrained_{a}"]) for a in "xyz"] for n in nodes]
     loads = [[float(n[f"force_{a}_N"]) for a in "xyz"] for n in nodes]
-    return force, held, loads, [[float(n[f"displacement_{a}_mm"]) for a in "xyz"] for n in nodes]
+    return body.forces(body.rest + np.array(displacement)), held, loads, [[float(n[f"displacement_{a}_mm"]) for a in "xyz"] for n in nodes]
+
+
+def forces_of(folder):
+    sys.path.insert(0, str(folder))
+    return importlib.import_module("forces")
+
+
+def check_slopes(field, x):
+    """The change of a field's forces against differences of the forces, and its matrix against the change."""
+    dx = np.random.default_rng(1).uniform(-1, 1, x.shape)
+    step = 1e-5
+    by_differences = (field.forces(x + step * dx) - field.forces(x - step * dx)) / (2 * step)
+    field.forces(x)
+    change = field.change(dx)
+    largest = np.abs(change).max()
+    # The error of differences: step^2 times a third derivative, 1e-10 about, and rounding of the forces / step.
+    assert np.abs(change - by_differences).max() <= 1e-8 * largest, "addDForce"
+    product = np.zeros(x.size)
+    for i, j, value in field.slope(len(x)):
+        product[i] += value * dx.flat[j]
+    assert np.abs(product - change.ravel()).max() <= 1e-12 * largest, "addKToMatrix"
 
 
 def from_sofa(folder, displacement):
     """Forces of the scene's own objects; mN and mN/mm become N and N/mm."""
     objects = sofa_objects.scene_of(folder)
     of = lambda component: [data for name, data in objects if name == component]
-    (state,), (springs,) = of("MechanicalObject"), of("SpringForceField")
+    (state,) = of("MechanicalObject")
     x = [[p + d for p, d in zip(place, u)] for place, u in zip(state["rest_position"], displacement)]
     motion = [minus(place, rest) for place, rest in zip(state["position"], state["rest_position"])]
     force = [[0.0] * 3 for _ in x]
-    for a, b, stiffness, rest_length in sofa_objects.springs_of(springs):
+    for a, b, stiffness, rest_length in sofa_objects.springs_of(of("SpringForceField")):
         spring_force(force, x, a, b, 1e-3 * stiffness, rest_length)
+    for field in of("ForceField"):
+        force = (np.array(force) + 1e-3 * field.forces(x)).tolist()
+        check_slopes(field, np.array(x))
     held, loads = [[0] * 3 for _ in x], [[0.0] * 3 for _ in x]
     for support in of("PartialFixedProjectiveConstraint"):
         for node in support["indices"]:

@@ -5,7 +5,7 @@ run_sofa_scene.py FOLDER N_STEPS
 Prints the displacement (mm) of each node, a line each, after so many steps of the animation. StaticSolver finds the equilibrium;
 BDFOdeSolver of order 1 or 2 solves a x_1 + ... = h b v_1, M (a v_1 + ...) = h b f_1, both with NewtonRaphsonSolver, which ends when the residual
 has the absolute size that the scene asks for. Damping is -rayleighMass M v + rayleighStiffness df/dx v, of the body as it is.
-Only Python's standard library is used.
+Only Python's standard library and what scene.py itself uses are used.
 """
 
 import math
@@ -19,10 +19,11 @@ class Scene:
     def __init__(self, folder):
         objects = sofa_objects.scene_of(folder)
         of = lambda component: [data for name, data in objects if name == component]
-        (self.state,), (self.newton,), (springs,) = of("MechanicalObject"), of("NewtonRaphsonSolver"), of("SpringForceField")
+        (self.state,), (self.newton,) = of("MechanicalObject"), of("NewtonRaphsonSolver")
         assert of("SparseLDLSolver")
-        self.springs = list(sofa_objects.springs_of(springs))
-        self.loads, self.controllers = of("ConstantForceField"), of("Controller")
+        self.springs = list(sofa_objects.springs_of(of("SpringForceField")))
+        self.loads, self.controllers, self.fields = of("ConstantForceField"), of("Controller"), of("ForceField")
+        self.skin = of("OglModel")
         n = len(self.state["position"])
         fixed = [[0] * 3 for _ in range(n)]
         for support in of("PartialFixedProjectiveConstraint"):
@@ -34,7 +35,7 @@ class Scene:
         self.step = objects[0][1]["dt"]
         if self.step:
             (ode,), (mass,), (topology,) = of("BDFOdeSolver"), of("DiagonalMass"), of("EdgeSetTopologyContainer")
-            assert len(mass["vertexMass"]) == len(topology["position"]) == n and len(topology["edges"]) == len(self.springs)
+            assert len(mass["vertexMass"]) == len(topology["position"]) == n and len(topology["edges"]) >= len(self.springs)
             self.mass, self.order = mass["vertexMass"], ode["order"]
             self.alpha, self.beta = ode["rayleighMass"], ode["rayleighStiffness"]
         else:
@@ -50,6 +51,14 @@ class Scene:
                 for a in range(3):
                     if 3 * node + a in place:
                         force[place[3 * node + a]] += f[a]
+        for field in self.fields:
+            for node, f in enumerate(field.forces(x)):
+                for a in range(3):
+                    if 3 * node + a in place:
+                        force[place[3 * node + a]] += f[a]
+            for i, j, value in field.slope(len(x)):
+                if i in place and j in place:
+                    slope[place[i]][place[j]] += value
         for i, j, stiffness, rest_length in self.springs:
             d = [b - a for a, b in zip(x[i], x[j])]
             length = math.sqrt(sum(c * c for c in d))
@@ -94,7 +103,8 @@ class Scene:
         v = [0.0] * len(self.free)
         for n in range(n_steps):
             for controller in self.controllers:
-                controller.onAnimateBeginEvent({})
+                if hasattr(controller, "onAnimateBeginEvent"):
+                    controller.onAnimateBeginEvent({})
             before.append(([self.x[d // 3][d % 3] for d in self.free], v))
             order = min(self.order, n + 1)
             back, b = {1: ([1.0], 1.0), 2: ([4 / 3, -1 / 3], 2 / 3)}[order]
@@ -150,6 +160,11 @@ def main():
         scene.move(int(sys.argv[2]))
     else:
         scene.equilibrium()
+    for controller in scene.controllers:
+        if hasattr(controller, "onAnimateEndEvent"):
+            controller.onAnimateEndEvent({})
+    for skin in scene.skin:  # every vertex of a block without a surface of its own is at a node
+        assert all(min(math.dist(vertex, place) for place in scene.x) < 1e-9 for vertex in skin["position"]), "another skin"
     for place, rest in zip(scene.x, scene.state["rest_position"]):
         print(",".join(repr(x - r) for x, r in zip(place, rest)))
 

@@ -4,6 +4,8 @@ import importlib.util
 import sys
 import types
 
+import numpy as np
+
 KNOWN = {  # components and their data, of SOFA v25.06 and later: https://www.sofa-framework.org/api/master/sofa/html
     "RequiredPlugin": {"pluginName"}, "DefaultAnimationLoop": set(), "VisualStyle": {"displayFlags"},
     "NewtonRaphsonSolver": {"name", "maxNbIterationsNewton", "maxNbIterationsLineSearch", "relativeSuccessiveStoppingThreshold",
@@ -13,7 +15,7 @@ KNOWN = {  # components and their data, of SOFA v25.06 and later: https://www.so
     "EdgeSetTopologyContainer": {"name", "position", "edges"}, "DiagonalMass": {"name", "template", "topology", "vertexMass"},
     "SpringForceField": {"name", "template", "spring"},
     "PartialFixedProjectiveConstraint": {"name", "template", "indices", "fixedDirections"},
-    "ConstantForceField": {"name", "template", "indices", "forces"},
+    "ConstantForceField": {"name", "template", "indices", "forces"}, "OglModel": {"name", "position", "triangles"},
 }
 
 
@@ -35,6 +37,22 @@ class Data:
         return False
 
 
+class Array:
+    """Numbers that a force field reads, or adds to."""
+
+    def __init__(self, values):
+        self.value = np.array(values, float)
+
+    def writeableArray(self):
+        return self
+
+    def __enter__(self):
+        return self.value
+
+    def __exit__(self, *_):
+        return False
+
+
 class Component:
     def __init__(self, data):
         self.data = data
@@ -44,6 +62,26 @@ class Component:
         return Data(self.data, key)
 
     position = property(lambda self: self.findData("position"))
+
+
+class ForceField:
+    def __init__(self, *args, **kwargs):
+        pass
+
+    def forces(self, x):
+        total = Array(np.zeros((len(x), 3)))
+        self.addForce({"kFactor": 1}, total, Array(x), None)
+        return total.value
+
+    def change(self, dx):
+        """Of the forces by dx, at the state of the last forces."""
+        total = Array(np.zeros((len(dx), 3)))
+        self.addDForce({"kFactor": 1}, total, Array(dx))
+        return total.value
+
+    def slope(self, n):
+        """Row, column and value of the forces' derivative."""
+        return [(int(i), int(j), value) for i, j, value in self.addKToMatrix({"kFactor": 1}, n, 3)]
 
 
 class Controller:
@@ -61,9 +99,10 @@ class Node:
         return Node(self.objects)
 
     def addObject(self, component, **data):
-        if isinstance(component, Controller):
-            self.objects.append(("Controller", component))
-            return component
+        for kind in (Controller, ForceField):
+            if isinstance(component, kind):
+                self.objects.append((kind.__name__, component))
+                return component
         assert set(data) <= KNOWN[component], (component, data.keys())
         for link in ("newtonSolver", "topology"):  # a link leads to what stands before it
             assert link not in data or any(known.get("name") == data[link][1:] for _, known in self.objects), link
@@ -75,7 +114,7 @@ def scene_of(folder):
     """Pairs of a component's name and its data, in the order of the scene; of the root ("root", its data)."""
     sofa = types.ModuleType("Sofa")
     sofa.Core = types.ModuleType("Sofa.Core")
-    sofa.Core.Controller = Controller
+    sofa.Core.Controller, sofa.Core.ForceFieldVec3d = Controller, ForceField
     sys.modules.update({"Sofa": sofa, "Sofa.Core": sofa.Core})
     spec = importlib.util.spec_from_file_location("scene", folder / "scene.py")
     scene = importlib.util.module_from_spec(spec)
@@ -87,9 +126,10 @@ def scene_of(folder):
     return [("root", {"dt": getattr(root, "dt", None)})] + root.objects
 
 
-def springs_of(field):
+def springs_of(fields):
     """Node, node, mN/mm, mm of each; none has damping."""
-    values = field["spring"].split()
-    for n in range(0, len(values), 5):
-        assert float(values[n + 3]) == 0
-        yield int(values[n]), int(values[n + 1]), float(values[n + 2]), float(values[n + 4])
+    for field in fields:
+        values = field["spring"].split()
+        for n in range(0, len(values), 5):
+            assert float(values[n + 3]) == 0
+            yield int(values[n]), int(values[n + 1]), float(values[n + 2]), float(values[n + 4])
