@@ -1,13 +1,27 @@
 #include "compare/export/lattice_arrays.hpp"
 
+#include <stdexcept>
+
 namespace springproof::compare {
 
 namespace {
 
-/// Stiffness, rest length, law (0 Hooke, 1 power-log) and its parameter.
+#pragma GCC diagnostic error "-Wswitch" // a law without a number must not compile
+/// The number by which clients and packages know a law.
+double number_of(msm::LawKind law) {
+  switch (law) {
+  case msm::LawKind::hooke:
+    return 0;
+  case msm::LawKind::power_log:
+    return 1;
+  }
+  throw std::logic_error("a law without a number");
+}
+
+/// Stiffness, rest length, number of the law, and its parameter.
 void add_spring(NumberArray& array, const msm::Spring& spring, const Units& units) {
   array.add({spring.stiffness * units.force / units.length, spring.rest_length * units.length,
-             spring.law.kind == msm::LawKind::power_log ? 1. : 0., spring.law.parameter});
+             number_of(spring.law.kind), spring.law.parameter});
 }
 
 /// k_v, volume at rest, whether it is logarithmic: of a cell or of a node's tetrahedra.
