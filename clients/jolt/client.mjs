@@ -1,7 +1,7 @@
 // Jolt's soft bodies as a client of springproof: see README.md beside this file.
 import { parseArgs } from "node:util";
 import init from "jolt-physics/wasm-compat";
-import { answer, factor, heldNodes, readScene, say, sixTetrahedra } from "../protocol.mjs";
+import { answer, factor, heldNodes, readScene, say } from "../protocol.mjs";
 
 const { values: options } = parseArgs({ options: { damping: { type: "string", default: "0.1" } } });
 const J = await init();
@@ -18,7 +18,8 @@ ignored(arrays.biquadratic_tetrahedra.rows > 0, "biquadratic tetrahedra");
 const hasSpring = (column, is) => arrays.springs.values.some((x, i) => i % 6 === column && is(x));
 ignored(hasSpring(4, (law) => law !== 0), "the power-log law: springs are Hooke's");
 ignored(hasSpring(2, (k) => k <= 0), "springs of stiffness 0 or less");
-ignored(arrays.volume_hexahedra.rows > 0, "volume of whole hexahedra: six tetrahedra of each keep theirs");
+ignored(arrays.volume_hexahedra.rows > 0,
+        "volume of whole hexahedra: the two inscribed tetrahedra of each keep theirs");
 ignored(arrays.volume_patches.rows > 0, "volume of the tetrahedra around nodes");
 ignored(header.stiffness_damping > 0, "stiffness_damping");
 const isDamped = (c, i) => Math.abs(c - Number(options.damping) * arrays.mass.at(i, 0)) <= 1e-9 * c;
@@ -57,22 +58,26 @@ for (let s = 0; s < springs.rows; ++s) {
   edge.mRestLength = springs.at(s, 3);
   shared.mEdgeConstraints.push_back(edge);
 }
-// Energy k_v/2 V0 (V/V0 - 1)^2, of a constraint of 6 V: compliance 36 V0 / k_v.
-const six = (p, q, r, s) => {
-  const at = [p, q, r, s].map((i) => [0, 1, 2].map((c) => arrays.nodes.at(i, c)));
+// Energy k_v/2 V0 (V/V0 - 1)^2. A parallelepiped's relative change of volume is to first order the mean of its
+// two inscribed tetrahedra's, so that each has half of the energy at its own change.
+const inscribed = [[0, 5, 3, 6], [1, 2, 4, 7]];
+const sixVolumes = (nodes) => {
+  const at = nodes.map((i) => [0, 1, 2].map((c) => arrays.nodes.at(i, c)));
   const [u, v, w] = [1, 2, 3].map((i) => at[i].map((x, c) => x - at[0][c]));
   const cross = [v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]];
   return Math.abs(u[0] * cross[0] + u[1] * cross[1] + u[2] * cross[2]);
 };
-const addVolume = (nodes, stiffness) => {
-  if (stiffness <= 0 || nodes.every((node) => held.whole.has(node))) return;
-  const volume = new J.SoftBodySharedSettingsVolume(...nodes, (6 * six(...nodes)) / stiffness);
-  volume.mSixRestVolume = six(...nodes);
-  shared.mVolumeConstraints.push_back(volume);
-};
-for (let c = 0; c < arrays.volume_hexahedra.rows; ++c)
-  for (const cut of sixTetrahedra)
-    addVolume(cut.map((v) => arrays.volume_hexahedra.at(c, v)), arrays.volume_hexahedra.at(c, 8));
+const hexahedra = arrays.volume_hexahedra;
+for (let c = 0; c < hexahedra.rows; ++c)
+  for (const corners of inscribed) {
+    const nodes = corners.map((v) => hexahedra.at(c, v)), stiffness = hexahedra.at(c, 8) / 2;
+    if (stiffness <= 0 || nodes.every((node) => held.whole.has(node))) continue;
+    const six = sixVolumes(nodes), share = six / (6 * hexahedra.at(c, 9)); // a third of a parallelepiped
+    const compliance = (36 * share ** 2 * hexahedra.at(c, 9)) / stiffness; // of a constraint of 6 V
+    const volume = new J.SoftBodySharedSettingsVolume(...nodes, compliance);
+    volume.mSixRestVolume = six;
+    shared.mVolumeConstraints.push_back(volume);
+  }
 shared.AddFace(new J.SoftBodySharedSettingsFace(0, 1, 2, 0));
 shared.Optimize();
 
