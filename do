@@ -3,7 +3,7 @@
 #   ./do tables [ARGS]   regenerate the thesis's tables      ./do test [long|sanitize|release]   the tests of a tier
 #   ./do build           build/springproof, without tests    ./do format  clang-format over the sources
 #   ./do bench           timings (never part of a test)      ./do run ... build and run springproof with these arguments
-#   ./do clients         install what the adapters in clients/ drive: engines (npm) and numpy
+#   ./do clients         install what the adapters in clients/ drive: engines (npm, Bullet) and numpy
 #   ./do packages        install what is missing         ./do package build/springproof_*.deb, to be installed with apt-get
 set -eu
 cd "$(dirname "$0")"
@@ -60,10 +60,12 @@ case $command in
   build)  build ;;
   packages) install_missing ;;
   clients)
-    wanted=python3-numpy # the reference client's
+    wanted='python3-numpy g++ pkg-config nlohmann-json3-dev libbullet-dev' # of reference and bullet
     command -v npm >/dev/null || wanted="$wanted npm"
     install "$wanted"
-    npm ci --prefix clients --no-audit --no-fund >&2 ;;
+    npm ci --prefix clients --no-audit --no-fund >&2
+    # Without -Wall: Bullet's headers have warnings.
+    g++ -std=c++17 -O2 clients/bullet/client.cc -o clients/bullet/client $(pkg-config --cflags --libs bullet-float64) ;;
   package)
     build
     cpack --config build/CPackConfig.cmake -B build >&2 ;;
