@@ -55,9 +55,10 @@ std::string line_of(const RunOptions& run, const cases::Case& definition,
     if (std::none_of(left_out.begin(), left_out.end(),
                      [&](const std::string& beginning) { return setting.rfind(beginning, 0) == 0; }))
       words.insert(words.end(), {"--set", setting});
-  const bool is_one_side = std::find(more.begin(), more.end(), "--only") != more.end();
-  if (!run.displacements.client.empty() && !is_one_side)
+  const auto adds = [&](const char* word) { return std::find(more.begin(), more.end(), word) != more.end(); };
+  if (!run.displacements.client.empty() && !adds("--only"))
     words.insert(words.end(), {"--client", run.displacements.client});
+  if (!run.replay.empty() && !adds("--designs")) words.insert(words.end(), {"--replay", run.replay});
   words.insert(words.end(), more.begin(), more.end());
   return shell_line(words);
 }
@@ -344,7 +345,7 @@ void add_run_command(CLI::App& program, Action& chosen) {
   command->add_option("--peer", options->peer, "ask another program about the finite elements' side too")
       ->check(CLI::IsMember({"ccx"}));
   for (CLI::Option* others : add_displacement_options(*command, options->displacements))
-    others->excludes(only);
+    others->excludes(only)->excludes("--converge-time"); // which halves our own step
   command
       ->add_flag("--error-budget", options->has_error_budget,
                  "the springs on finer lattices, a motion with half its step: how much of each error is of "

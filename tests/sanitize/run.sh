@@ -3,6 +3,7 @@
 #   build            builds in BUILD what the others run
 #   springs          the unit tests of cases and springs, damaged case files among them, and the springs' check values
 #   finite_elements  laws, elements, patches, the cube by two other solvers, stability, motions, both backends
+#   clients          a thousand mutated answers of a client
 #   program          every command, reader and writer, hard cases, kept results, shards
 #   damaged_files    some damaged files of every kind
 # Fails when a sanitizer finds anything, a test fails or a command ends in another exit status than it should. The libraries (deal.II,
@@ -37,7 +38,8 @@ ends() {
 case $part in
 build)
   (cd "$source" && cmake --preset sanitize -B "$build") >&2
-  cmake --build "$build" --target springproof springproof_cases_tests springproof_msm_tests springproof_fem_reference_tests >&2 ;;
+  cmake --build "$build" --target springproof springproof_cases_tests springproof_msm_tests springproof_fem_reference_tests \
+    springproof_clients_tests >&2 ;;
 springs)
   ./springproof_cases_tests "~[verification]~[little_memory]"
   ./springproof_msm_tests "~[verification]~[little_memory]"
@@ -45,6 +47,8 @@ springs)
 finite_elements)
   ./springproof_fem_reference_tests "-#" \
     "~[ranks]~[little_memory]~[#cook_test]~[#manufactured_test]" ;;
+clients)
+  ./springproof_clients_tests "a thousand mutated answers*" ;;
 program)
   rm -rf program
   mkdir program

@@ -232,8 +232,8 @@ TEST_CASE("displacements in other axes or units are warned of") {
 
 namespace {
 
-/// Largest difference of the reference client's equilibrium from our own springs', of the largest
-/// displacement.
+/// Largest difference of the reference client's displacements from our own springs', of the largest
+/// displacement: of those at rest, or of all those of a motion.
 double difference_of_reference(const cases::Scene& scene) {
   std::optional<msm::DesignResult> design;
   const compare::Answer springs = compare::solve_springs(scene, 1, design);
@@ -244,10 +244,23 @@ double difference_of_reference(const cases::Scene& scene) {
   REQUIRE(client.answer.converged());
   CHECK(client.introduction->unsupported.empty());
   double largest = 0, difference = 0;
-  for (std::size_t n = 0; n < scene.mesh.nodes.size(); ++n) {
-    largest = std::max(largest, springs.solution.displacement[n].norm());
-    difference = std::max(difference,
-                          (springs.solution.displacement[n] - client.answer.solution.displacement[n]).norm());
+  const auto compare_bodies = [&](const std::vector<Eigen::Vector3d>& ours,
+                                  const std::vector<Eigen::Vector3d>& theirs) {
+    REQUIRE(ours.size() == theirs.size());
+    for (std::size_t n = 0; n < ours.size(); ++n) {
+      largest = std::max(largest, ours[n].norm());
+      difference = std::max(difference, (ours[n] - theirs[n]).norm());
+    }
+  };
+  compare_bodies(springs.solution.displacement, client.answer.solution.displacement);
+  if (scene.definition.dynamics) {
+    const auto& ours = springs.solution.trajectory->bodies;
+    const auto& theirs = client.answer.solution.trajectory->bodies;
+    REQUIRE(ours.size() == theirs.size());
+    for (std::size_t b = 0; b < ours.size(); ++b) {
+      CHECK(ours[b].step == theirs[b].step);
+      compare_bodies(ours[b].displacement, theirs[b].displacement);
+    }
   }
   return difference / largest;
 }
@@ -269,5 +282,18 @@ TEST_CASE("so it has that of tetrahedra, whose volume terms are at nodes", "[ver
                        {"body.cells=[2,2,2]", "material.poissons_ratio=0.3", "msm.design=" + design});
   const cases::Scene scene = tetrahedra::make_scene(definition, cases::Element::p1);
   CHECK(scene.mesh.shape == cases::CellShape::tetrahedron);
+  CHECK(difference_of_reference(scene) < 1e-9);
+}
+
+TEST_CASE("and that of a damped motion, under a load with a history", "[verification]") {
+  if (are_clients_refused()) return;
+  const auto design = GENERATE(as<std::string>(), "moduli", "hybrid", "midline");
+  INFO(design);
+  const cases::Scene scene = cases::make_scene(
+      cases::read_case(SPRINGPROOF_SOURCE_DIR "/cases/thesis/linear_elastic/cube_shear_small.toml",
+                       {"body.cells=[2,2,2]", "material.poissons_ratio=0.25", "material.density=1000",
+                        "material.mass_damping=4", "material.stiffness_damping=1e-4", "msm.design=" + design,
+                        "load[0].history=[[0,0],[0.004,1],[0.02,-0.5]]",
+                        "dynamics={scheme=\"implicit_euler\",step=0.001,end=0.02,write_every=1}"}));
   CHECK(difference_of_reference(scene) < 1e-9);
 }
