@@ -74,12 +74,13 @@ CLI::Option* add_workers_option(CLI::App& command, int& n_workers);
 /// --converge, of the commands that hold springs against a limit: the number of meshes, 0 without it.
 CLI::Option* add_converge_option(CLI::App& command, int& meshes);
 
-/// --msm-displacements, --interpolate and --client, of the commands that take another simulator's results.
+/// --msm-displacements, --interpolate, --array and --client, of the commands that take another simulator's results.
 struct DisplacementOptions {
   std::string file;   ///< empty: our springs are solved, or a client is asked
   std::string client; ///< NAME=COMMAND; empty: there is none
   bool has_others() const { return !file.empty() || !client.empty(); }
   bool interpolate = false;
+  std::string array; ///< empty: the one that the reader finds
 };
 /// @return --msm-displacements and --client
 std::array<CLI::Option*, 2> add_displacement_options(CLI::App& command, DisplacementOptions& options);

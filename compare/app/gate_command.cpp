@@ -95,7 +95,8 @@ int gate(const GateOptions& options) {
   if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
   const auto external =
       read_external(questions, options.displacements.file,
-                    options.displacements.interpolate ? Transfer::interpolated : Transfer::matched);
+                    options.displacements.interpolate ? Transfer::interpolated : Transfer::matched,
+                    options.displacements.array);
   const auto client = read_client(questions, options.displacements.client);
   if (!options.shards.part.empty())
     return solve_shard(options.shards, questions, FileNames::of_cases, options.out, {options.workers});

@@ -13,7 +13,7 @@ namespace springproof::compare {
 namespace {
 
 constexpr const char* recorded_options[] = {
-    "--set=", "--converge=", "--msm-displacements=", "--interpolate=", "--replay=", "--trace="};
+    "--set=", "--converge=", "--msm-displacements=", "--interpolate=", "--array=", "--replay=", "--trace="};
 
 struct MergeOptions {
   std::vector<std::string> folders;

@@ -41,10 +41,13 @@ CLI::Option* add_converge_option(CLI::App& command, int& meshes) {
 std::array<CLI::Option*, 2> add_displacement_options(CLI::App& command, DisplacementOptions& options) {
   CLI::Option* file = command.add_option(
       "--msm-displacements", options.file,
-      "another simulator's displacements in place of our springs: .csv (x,y,z,ux,uy,uz) or a VTK file");
+      "another simulator's displacements in place of our springs: .csv (x,y,z,ux,uy,uz) or a VTK file; of a "
+      "case with [dynamics] its motion: .pvd, a folder of numbered files or .csv (time,x,y,z,ux,uy,uz)");
   command
       .add_flag("--interpolate", options.interpolate,
                 "they are on a mesh of their own: interpolate in its cells, and say what that may add")
+      ->needs(file);
+  command.add_option("--array", options.array, "the name of the displacements among a VTK file's vectors")
       ->needs(file);
   CLI::Option* client =
       command

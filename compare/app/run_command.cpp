@@ -291,7 +291,8 @@ int run_comparisons(const RunOptions& options) {
   questions = with_recording(std::move(questions), options.replay);
   const auto external =
       read_external(questions, options.displacements.file,
-                    options.displacements.interpolate ? Transfer::interpolated : Transfer::matched);
+                    options.displacements.interpolate ? Transfer::interpolated : Transfer::matched,
+                    options.displacements.array);
   const auto client = read_client(questions, options.displacements.client);
   const FinishedCases finished(options.out, questions);
   ProgressLine line(1);

@@ -1,7 +1,7 @@
 #include "compare/client/ask_client.hpp"
 
 #include "cases/case/error.hpp"
-#include "compare/peers/external_side.hpp"
+#include "compare/peers/motion.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/solve/solve.hpp"
@@ -144,38 +144,11 @@ class Session {
   }
 };
 
-double volume_of(const cases::Mesh& mesh, const Displacement& displacement) {
-  double volume = 0;
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-    volume += cases::cell_volume(cases::cell_corners(mesh, c, displacement));
-  return volume;
-}
-
-/// All frames of a motion, as our own would be recorded.  @return the last
-Displacement take_motion(Session& session, const cases::Scene& scene, cases::Trajectory& motion) {
-  const cases::Dynamics& dynamics = *scene.definition.dynamics;
-  const std::vector<double> times = frame_times(scene);
-  const bool has_volume = cases::watches_volume(scene);
-  motion.nodes = cases::watched_nodes(scene);
-  Displacement at;
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    at = session.frame(k, times[k]);
-    motion.time.push_back(times[k]);
-    for (const int node : motion.nodes) motion.displacement.push_back(at[cases::index(node)]);
-    if (has_volume) motion.volume.push_back(volume_of(scene.mesh, at));
-    const int step = static_cast<int>(k);
-    if (step % dynamics.write_every == 0 || k + 1 == times.size()) motion.bodies.push_back({step, at});
-  }
-  session.end(times.size());
-  return at;
-}
-
 void take_answer(Session& session, const cases::Scene& scene, ClientAnswer& found) {
   cases::Solution& solution = found.answer.solution;
   if (scene.definition.dynamics) {
-    cases::Trajectory motion;
-    solution.displacement = take_motion(session, scene, motion);
-    solution.trajectory = std::move(motion);
+    record_motion(scene, solution, [&](std::size_t k, double time) { return session.frame(k, time); });
+    session.end(frame_times(scene).size());
   } else {
     solution.displacement = session.frame(0, std::nullopt);
     session.end(1);

@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "cases/scene/loads.hpp"
 #include "compare/export/lattice_arrays.hpp"
+#include "compare/peers/motion.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/json.hpp"
 #include "msm/problem.hpp"
@@ -101,13 +102,6 @@ double stiffness_damping(const cases::Scene& scene) {
 }
 
 } // namespace
-
-std::vector<double> frame_times(const cases::Scene& scene) {
-  std::vector<double> times;
-  if (const auto& dynamics = scene.definition.dynamics)
-    for (int step = 0; step <= dynamics->n_steps(); ++step) times.push_back(step * dynamics->step);
-  return times;
-}
 
 std::string scene_message(const cases::Scene& scene, const ClientBudget& budget) {
   const auto& dynamics = scene.definition.dynamics;

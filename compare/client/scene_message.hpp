@@ -19,9 +19,6 @@ struct ClientBudget {
   double seconds = 300;      ///< that the whole answer may take
 };
 
-/// The times (s) at which a client is asked for frames; of a body that is to come to rest, none.
-std::vector<double> frame_times(const cases::Scene& scene);
-
 /// @throws cases::InputError when no springs can be designed
 /// @throws cases::SolveError when the scene has what the protocol has no words for
 std::string scene_message(const cases::Scene& scene, const ClientBudget& budget);

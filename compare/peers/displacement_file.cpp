@@ -4,6 +4,7 @@
 #include "cases/case/input_file.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <set>
 #include <utility>
@@ -13,16 +14,6 @@ namespace springproof::compare {
 using Eigen::Vector3d;
 
 namespace {
-
-const std::string header = "x,y,z,ux,uy,uz";
-
-/// The numbers of a row, or nothing if it is not six finite ones.
-std::vector<double> numbers_of(const cases::TextRow& row) {
-  std::vector<double> values;
-  for (const std::string_view field : row.fields)
-    if (const auto value = cases::number_in<double>(field)) values.push_back(*value);
-  return row.fields.size() == 6 && values.size() == 6 ? values : std::vector<double>{};
-}
 
 [[noreturn]] void refuse(const std::string& path, const std::string& problem) {
   throw cases::InputError(path + ": " + problem);
@@ -35,17 +26,21 @@ cases::PointCloud points_of(const std::string& text, const std::string& path) tr
 }
 
 /// Finds the displacements by their name, or takes the only vectors.
-const std::vector<Vector3d>& displacements_of(const cases::PointCloud& cloud, const std::string& path) {
-  for (const char* wanted : {"msm_displacement", "displacement"})
+const std::vector<Vector3d>& displacements_of(const cases::PointCloud& cloud, const std::string& path,
+                                              const std::string& array) {
+  const std::vector<std::string> names_of_ours{"msm_displacement", "displacement"};
+  for (const std::string& wanted : array.empty() ? names_of_ours : std::vector{array})
     for (const cases::PointField& field : cloud.fields)
       if (field.name == wanted) return field.values;
-  if (cloud.fields.size() == 1) return cloud.fields.front().values;
+  if (array.empty() && cloud.fields.size() == 1) return cloud.fields.front().values;
   std::vector<std::string> names;
   for (const cases::PointField& field : cloud.fields) names.push_back("'" + field.name + "'");
   names.insert(names.end(), cloud.others.begin(), cloud.others.end());
   refuse(path, fmt::format(
-                   "must have point data of three components (Float32 or Float64) named msm_displacement or "
-                   "displacement, or only one with three components; it has {}",
+                   "must have point data of three components (Float32 or Float64) named {}; it has {}",
+                   array.empty() ? "msm_displacement or displacement, or only one with three components, or "
+                                   "one that --array names"
+                                 : "'" + array + "'",
                    names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
@@ -55,9 +50,11 @@ std::string shown(const Vector3d& point) {
 
 } // namespace
 
-std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, const std::string& path) {
-  std::vector<GivenDisplacement> nodes;
-  const auto refuse_row = [](const cases::TextRow& row, const char* problem) {
+void read_displacement_rows(
+    const std::string& text, const std::string& path, const std::string& header,
+    const std::function<void(const std::vector<double>&, const std::string&)>& row_of) {
+  const auto n_columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',') + 1);
+  const auto refuse_row = [&](const cases::TextRow& row, const std::string& problem) {
     throw cases::InputError(
         fmt::format("{}is '{}', must be {} {} (mm)", row.place(), row.line, problem, header));
   };
@@ -68,28 +65,42 @@ std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, co
   };
   cases::read_rows(text, path, cases::Between::commas, check_heading, [&](const cases::TextRow& row) {
     if (!has_heading) refuse_row(row, "the header");
-    const std::vector<double> v = numbers_of(row);
-    if (v.empty()) refuse_row(row, "six finite numbers between commas:");
-    nodes.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, fmt::format("{}:{}", path, row.number)});
+    std::vector<double> values;
+    for (const std::string_view field : row.fields)
+      if (const auto value = cases::number_in<double>(field)) values.push_back(*value);
+    if (values.size() != n_columns || row.fields.size() != n_columns)
+      refuse_row(row, fmt::format("{} finite numbers between commas:", n_columns == 6 ? "six" : "seven"));
+    row_of(values, fmt::format("{}:{}", path, row.number));
   });
   if (!has_heading) throw cases::InputError(path + ":1: is empty, must begin with the header " + header);
+}
+
+std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, const std::string& path) {
+  std::vector<GivenDisplacement> nodes;
+  read_displacement_rows(text, path, "x,y,z,ux,uy,uz",
+                         [&](const std::vector<double>& v, const std::string& where) {
+                           nodes.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, where});
+                         });
   return nodes;
 }
 
-std::vector<GivenDisplacement> read_displacement_vtk(const std::string& text, const std::string& path) {
-  return displacements_in(points_of(text, path), path);
+std::vector<GivenDisplacement> read_displacement_vtk(const std::string& text, const std::string& path,
+                                                     const std::string& array) {
+  return displacements_in(points_of(text, path), path, array);
 }
 
-const std::vector<Vector3d>& finite_displacements(const cases::PointCloud& cloud, const std::string& path) {
-  const std::vector<Vector3d>& displacements = displacements_of(cloud, path);
+const std::vector<Vector3d>& finite_displacements(const cases::PointCloud& cloud, const std::string& path,
+                                                  const std::string& array) {
+  const std::vector<Vector3d>& displacements = displacements_of(cloud, path, array);
   for (std::size_t p = 0; p < displacements.size(); ++p)
     if (!cloud.points[p].allFinite() || !displacements[p].allFinite())
       refuse(path, fmt::format("is not finite at point {}", p));
   return displacements;
 }
 
-std::vector<GivenDisplacement> displacements_in(const cases::PointCloud& cloud, const std::string& path) {
-  const std::vector<Vector3d>& displacements = finite_displacements(cloud, path);
+std::vector<GivenDisplacement> displacements_in(const cases::PointCloud& cloud, const std::string& path,
+                                                const std::string& array) {
+  const std::vector<Vector3d>& displacements = finite_displacements(cloud, path, array);
   // A float in text may have six digits, and be off by five millionths in each component.
   const double rounding = cloud.is_single_precision ? 1e-5 : 0;
   std::vector<GivenDisplacement> nodes;

@@ -5,6 +5,8 @@
 #include "cases/case/names.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 #include "compare/measure/measure.hpp"
+#include "compare/peers/motion.hpp"
+#include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/estimate.hpp"
@@ -28,13 +30,20 @@ std::pair<std::string, bool> read_result_file(const std::string& path) {
   static const std::vector<std::string> endings{".csv", ".vtu", ".vtp", ".vtk", ".vts", ".vtr", ".vti"};
   const std::string ending = std::filesystem::path(path).extension();
   if (std::find(endings.begin(), endings.end(), ending) == endings.end())
-    throw cases::InputError(
-        fmt::format("{}: displacements must be in a file {} (x,y,z,ux,uy,uz), or of VTK: {}", path,
-                    endings.front(), fmt::join(endings.begin() + 1, endings.end(), " ")));
+    throw cases::InputError(fmt::format("{}: displacements must be in a file {} (x,y,z,ux,uy,uz), or of VTK: "
+                                        "{}; a motion (.pvd, a folder) is of a case with [dynamics]",
+                                        path, endings.front(),
+                                        fmt::join(endings.begin() + 1, endings.end(), " ")));
   if (one_line(path) != path)
     throw cases::InputError(one_line(path) + ": the file's name must be one line of UTF-8 text");
   const bool is_csv = ending == ".csv";
   return {is_csv ? cases::read_text_file(path) : cases::read_bytes(path), is_csv};
+}
+
+cases::Solution solution_at(std::vector<Vector3d> displacement) {
+  cases::Solution solution;
+  solution.displacement = std::move(displacement);
+  return solution;
 }
 
 cases::CellCloud cells_of(const std::string& text, const cases::Mesh& mesh, const std::string& path) try {
@@ -43,27 +52,26 @@ cases::CellCloud cells_of(const std::string& text, const cases::Mesh& mesh, cons
   throw cases::InputError(fmt::format("{}: cannot be interpolated: {}", path, error.what()));
 }
 
-ExternalDisplacements read_interpolated(const cases::Mesh& mesh, const std::string& path) {
+ExternalDisplacements read_interpolated(const cases::Mesh& mesh, const std::string& path,
+                                        const std::string& array) {
   const auto [text, is_csv] = read_result_file(path);
   if (is_csv)
     throw cases::InputError(path + ": --interpolate needs the results' cells, which a .csv does not have");
   cases::CellCloud cells = cells_of(text, mesh, path);
-  std::vector<Vector3d> displacement = cells.to_nodes.of(finite_displacements(cells.cloud, path));
+  std::vector<Vector3d> displacement = cells.to_nodes.of(finite_displacements(cells.cloud, path, array));
   for (std::size_t n = 0; n < displacement.size(); ++n)
     if (!displacement[n].allFinite())
       throw cases::InputError(fmt::format("{}: cannot be interpolated: is not finite at node {}", path, n));
-  return {path, std::move(displacement), std::move(cells)};
+  return {path, solution_at(std::move(displacement)), std::move(cells)};
 }
 
-/// A displacement of all nodes of the mesh as an answer, shared by the ranks.
-Answer answer_of(const cases::Mesh& mesh, const std::string& message,
-                 const std::function<std::vector<Vector3d>()>& displacement) {
+/// What another program found of all nodes of the mesh as an answer, shared by the ranks.
+Answer answer_of(const cases::Mesh& mesh, const std::function<cases::Solution()>& found) {
   return shared_from_rank_0<Answer>(mesh, [&] {
     Answer answer;
     cases::Solution& solution = answer.solution;
+    solution = found();
     solution.status = cases::Status::converged;
-    solution.message = message;
-    solution.displacement = displacement();
     solution.load_reached = 1;
     msm::measure_cells(mesh, solution);
     return answer;
@@ -82,8 +90,8 @@ Interpolated interpolated(const Answer& fem, const cases::Mesh& mesh, const case
   }
   if (!fem.converged()) return result;
   const cases::Solution whole = gathered(fem.solution);
-  result.fem_and_back =
-      answer_of(mesh, "", [&] { return cells.to_nodes.of(cells.from_nodes.of(whole.displacement)); });
+  result.fem_and_back = answer_of(
+      mesh, [&] { return solution_at(cells.to_nodes.of(cells.from_nodes.of(whole.displacement))); });
   return result;
 }
 
@@ -161,9 +169,14 @@ void hold_against_springs(const cases::Scene& scene, const msm::Problem& problem
 
 } // namespace
 
-std::vector<GivenDisplacement> read_displacements(const std::string& path) {
+void refuse_array(const std::string& path) {
+  throw cases::InputError(path + ": --array chooses among the arrays of a VTK file, and a .csv has none");
+}
+
+std::vector<GivenDisplacement> read_displacements(const std::string& path, const std::string& array) {
   const auto [text, is_csv] = read_result_file(path);
-  return is_csv ? read_displacement_csv(text, path) : read_displacement_vtk(text, path);
+  if (is_csv && !array.empty()) refuse_array(path);
+  return is_csv ? read_displacement_csv(text, path) : read_displacement_vtk(text, path, array);
 }
 
 void check_displacements_suffice(const cases::Case& definition, const std::string& option) {
@@ -176,17 +189,26 @@ void check_displacements_suffice(const cases::Case& definition, const std::strin
 }
 
 std::optional<ExternalDisplacements> read_external(const std::vector<Question>& questions,
-                                                   const std::string& path, Transfer transfer) {
+                                                   const std::string& path, Transfer transfer,
+                                                   const std::string& array) {
   if (path.empty()) return std::nullopt;
   if (questions.size() != 1)
     throw cases::InputError(
         fmt::format("--msm-displacements: belongs to one case, {} are given", questions.size()));
   check_displacements_suffice(questions.front().scene.definition, "--msm-displacements");
-  if (questions.front().scene.definition.dynamics)
-    throw cases::InputError("--msm-displacements: displacements have no time, and this case has [dynamics]");
-  const cases::Mesh& mesh = questions.front().scene.mesh;
-  if (transfer == Transfer::interpolated) return read_interpolated(mesh, path);
-  return ExternalDisplacements{path, match_nodes(mesh, read_displacements(path), path)};
+  const cases::Scene& scene = questions.front().scene;
+  if (scene.definition.dynamics) {
+    if (transfer == Transfer::interpolated)
+      throw cases::InputError(
+          "--interpolate: takes displacements at rest, and this case has [dynamics]: write "
+          "the motion at the nodes of the case's mesh");
+    if (n_mpi_ranks() > 1)
+      throw cases::InputError("--msm-displacements: a motion is read on one rank; start without mpirun");
+    return ExternalDisplacements{path, motion_from(scene, path, array)};
+  }
+  if (transfer == Transfer::interpolated) return read_interpolated(scene.mesh, path, array);
+  return ExternalDisplacements{path,
+                               solution_at(match_nodes(scene.mesh, read_displacements(path, array), path))};
 }
 
 HeldAgainstCase hold_against_case(const cases::Scene& scene, const std::vector<Vector3d>& displacement) {
@@ -205,8 +227,10 @@ HeldAgainstCase hold_against_case(const cases::Scene& scene, const std::vector<V
 Answers with_displacements(Answers answers, const cases::Scene& scene,
                            const ExternalDisplacements& external) {
   const cases::Mesh& mesh = scene.mesh;
-  HeldAgainstCase held = hold_against_case(scene, external.displacement);
-  answers.msm = answer_of(mesh, held.message, [&] { return external.displacement; });
+  HeldAgainstCase held; // a motion's inertia is not held against springs
+  if (!external.solution.trajectory) held = hold_against_case(scene, external.solution.displacement);
+  answers.msm = answer_of(mesh, [&] { return external.solution; });
+  answers.msm.solution.message = held.message;
   answers.msm_warnings = std::move(held.warnings);
   answers.design.reset();
   answers.msm_source = external.path;

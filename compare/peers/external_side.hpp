@@ -3,6 +3,8 @@
 #include "cases/mesh/vtk_functions.hpp"
 #include "compare/solve/answers.hpp"
 
+#include <functional>
+
 /// Displacements that another simulator computed: as they stand in a file, and in place of our springs'.
 namespace springproof::compare {
 
@@ -19,18 +21,27 @@ struct GivenDisplacement {
 /// @throws InputError saying where, what stands there and what is allowed
 std::vector<GivenDisplacement> read_displacement_csv(const std::string& text, const std::string& path);
 
+/// Rows of finite numbers beneath a header, for it and for motions.
+/// @param row_of  takes a row's numbers and its "file:line"
+/// @throws InputError, likewise
+void read_displacement_rows(
+    const std::string& text, const std::string& path, const std::string& header,
+    const std::function<void(const std::vector<double>&, const std::string&)>& row_of);
+
 /// A VTK file (read_point_cloud()); among its point data an array of three components in single or double
 /// precision, named msm_displacement or displacement, or the only one with three. Points with the same
 /// position and displacement are one node.
-/// @throws InputError, likewise
-std::vector<GivenDisplacement> read_displacement_vtk(const std::string& text, const std::string& path);
+/// @param array  its name instead; empty: as above   @throws InputError, likewise
+std::vector<GivenDisplacement> read_displacement_vtk(const std::string& text, const std::string& path,
+                                                     const std::string& array = {});
 /// The same of what VTK has read.
-std::vector<GivenDisplacement> displacements_in(const cases::PointCloud& cloud, const std::string& path);
+std::vector<GivenDisplacement> displacements_in(const cases::PointCloud& cloud, const std::string& path,
+                                                const std::string& array = {});
 
 /// Displacements (mm) at the points of a VTK file, in its order.
 /// @throws InputError, likewise
-const std::vector<Eigen::Vector3d>& finite_displacements(const cases::PointCloud& cloud,
-                                                         const std::string& path);
+const std::vector<Eigen::Vector3d>&
+finite_displacements(const cases::PointCloud& cloud, const std::string& path, const std::string& array = {});
 
 /// Distance (mm) within which a given node stands for a node of the mesh, besides the rounding of its
 /// position: 1e-6 of the diagonal of the mesh's bounding box, which six digits keep near the origin.
@@ -42,8 +53,12 @@ std::vector<Eigen::Vector3d> match_nodes(const cases::Mesh& mesh, const std::vec
                                          const std::string& path);
 
 /// Reads a file by its ending: .csv, or one of VTK's.
-/// @throws InputError as the two formats' readers, or if it has another ending
-std::vector<GivenDisplacement> read_displacements(const std::string& path);
+/// @param array  for VTK's reader   @throws InputError as the two formats' readers, or if it has another
+/// ending
+std::vector<GivenDisplacement> read_displacements(const std::string& path, const std::string& array = {});
+
+/// @throws InputError that a .csv has no arrays
+[[noreturn]] void refuse_array(const std::string& path);
 
 /// How results come to the nodes of the case's mesh.
 enum class Transfer {
@@ -54,7 +69,7 @@ enum class Transfer {
 /// Another simulator's answer to a case.
 struct ExternalDisplacements {
   std::string path;
-  std::vector<Eigen::Vector3d> displacement;  ///< mm, one per node of the case's mesh
+  cases::Solution solution;                   ///< converged; of a case with [dynamics] a motion
   std::optional<cases::CellCloud> cells = {}; ///< between which it was interpolated
 };
 
@@ -64,11 +79,14 @@ struct ExternalDisplacements {
 void check_displacements_suffice(const cases::Case& definition, const std::string& option);
 
 /// Reads `--msm-displacements` for the one case that it belongs to, before anything is solved.
-/// @param path  empty: there are none
-/// @throws InputError as read_displacements() and match_nodes(), or if there are several cases; of results to
-/// be interpolated, if the file has no cells or a node of the mesh lies far from all of them
+/// @param path  of a case with [dynamics] a motion's; empty: there are none
+/// @param array  the name of the displacements in a VTK file; empty: the reader's choice
+/// @throws InputError as read_displacements(), read_motion() and match_nodes(), or if there are several
+/// cases; of results to be interpolated, if the file has no cells, a node of the mesh lies far from all of
+/// them, or they are a motion; of a motion on several ranks
 std::optional<ExternalDisplacements> read_external(const std::vector<Question>& questions,
-                                                   const std::string& path, Transfer transfer);
+                                                   const std::string& path, Transfer transfer,
+                                                   const std::string& array = {});
 
 /// What a case says to displacements that another program gives as an answer to it.
 struct HeldAgainstCase {

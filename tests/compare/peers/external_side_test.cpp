@@ -130,7 +130,7 @@ TEST_CASE("another program's displacements that no answer to the case has are to
   const auto external = compare::read_external(
       {{scene, {}}}, SPRINGPROOF_SOURCE_DIR "/cases/external/pulled_bar.csv", compare::Transfer::matched);
   REQUIRE(external);
-  const std::vector<Vector3d>& good = external->displacement; // up to 0.5 mm
+  const std::vector<Vector3d>& good = external->solution.displacement; // up to 0.5 mm
   const compare::HeldAgainstCase as_it_is = compare::hold_against_case(scene, good);
   CHECK(as_it_is.warnings.empty());
   CHECK_THAT(as_it_is.message, Catch::Contains("residual") && Catch::Contains("(given)"));

@@ -191,13 +191,13 @@ TEST_CASE("results on another mesh are interpolated in their cells: linear field
   const auto found = compare::read_external(
       {{scene_of(mesh), {}}}, vtu_on(folder, foreign_body({3, 2, 2}), linear), Transfer::interpolated);
   REQUIRE(found);
-  CHECK(largest_error(mesh, found->displacement, linear) <= 1e-12); // displacements are some 4 mm
+  CHECK(largest_error(mesh, found->solution.displacement, linear) <= 1e-12); // displacements are some 4 mm
   // Its x² loses up to h²/8 times its second derivative of 0.02; y z nothing in hexahedra.
   for (const std::string name :
        {"tetrahedra_double.vtu", "image_double.vti", "hexahedra_float_binary_51.vtk"}) {
     const auto file =
         compare::read_external({{scene_of(mesh), {}}}, files.named(name), Transfer::interpolated);
-    const double h = 3.1 / 3, error = largest_error(mesh, file->displacement, foreign_displacement);
+    const double h = 3.1 / 3, error = largest_error(mesh, file->solution.displacement, foreign_displacement);
     INFO(name);
     CHECK(error <= 1.001 * (0.02 * h * h / 8 + (name[0] == 't' ? 0.01 * 1.1 * 0.85 / 4 : 0)));
     CHECK(error >= 0.3 * 0.02 * h * h / 8);
@@ -231,7 +231,7 @@ TEST_CASE("results on the case's own nodes are interpolated without any error") 
   const cases::Mesh mesh = foreign_body({3, 2, 2});
   const auto external =
       compare::read_external({{scene_of(mesh), {}}}, vtu_on(folder, mesh, smooth), Transfer::interpolated);
-  CHECK(largest_error(mesh, external->displacement, smooth) <= 1e-14);
+  CHECK(largest_error(mesh, external->solution.displacement, smooth) <= 1e-14);
   const compare::Answers answers =
       compare::with_displacements(answers_with(mesh, smooth), scene_of(mesh), *external);
   CHECK(largest_difference(answers.interpolated->fem_and_back.solution, answers.fem.solution) <= 1e-14);
@@ -270,7 +270,7 @@ TEST_CASE("in curved quadratic cells, and on their nodes, a linear displacement 
     for (Vector3d& node : mesh.nodes.stored()) node = curved(node);
     mesh.grid.reset();
     const auto found = compare::read_external({{scene_of(mesh), {}}}, path, Transfer::interpolated);
-    CHECK(largest_error(mesh, found->displacement, linear) <= 1e-12); // displacements are some 3 mm
+    CHECK(largest_error(mesh, found->solution.displacement, linear) <= 1e-12); // displacements are some 3 mm
   }
 }
 
@@ -293,7 +293,7 @@ TEST_CASE("an image that is turned by its direction is where it is") {
                     "Name=\"displacement\" NumberOfComponents=\"3\" format=\"ascii\">\n" +
                         values + "</DataArray></PointData></Piece></ImageData></VTKFile>\n");
   const auto found = compare::read_external({{scene_of(mesh), {}}}, path, Transfer::interpolated);
-  CHECK(largest_error(mesh, found->displacement, smooth) <= 1e-12);
+  CHECK(largest_error(mesh, found->solution.displacement, smooth) <= 1e-12);
 }
 
 TEST_CASE("nodes a little outside of the results' cells take the closest value, and are counted, far ones "
@@ -307,7 +307,7 @@ TEST_CASE("nodes a little outside of the results' cells take the closest value, 
   const compare::Answers answers = compare::with_displacements({}, scene_of(mesh), *external);
   CHECK(answers.interpolated->n_outside == 25);
   CHECK(answers.interpolated->largest_distance == Approx(0.1));
-  CHECK(external->displacement.back().x() == Approx(3.8));        // the other body's end
+  CHECK(external->solution.displacement.back().x() == Approx(3.8)); // the other body's end
   CHECK(answers.interpolated->fem_and_back.converged() == false); // no finite elements: nothing to try it on
   for (Vector3d& node : mesh.nodes.stored()) node.x() += 1;
   CHECK_THROWS_WITH(compare::read_external({{scene_of(mesh), {}}}, path, Transfer::interpolated),
