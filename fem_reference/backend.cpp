@@ -19,7 +19,7 @@ constexpr double grid_from = 300;
 
 Backend choose_backend(const cases::Scene& scene, double n_nodes) {
   if (!grid::is_on_grid(scene)) return Backend::assembled;
-  const bool can_factorise = takes_factorisation(n_nodes);
+  const bool can_factorise = takes_factorisation(n_nodes, scene.definition.fem);
   const bool is_hard = can_factorise && (grid::bulk_over_shear(scene) > most_incompressible ||
                                          scene.mesh.grid->slenderness() > cases::Grid::thin);
   return n_nodes < grid_from || is_hard ? Backend::assembled : Backend::grid;
@@ -42,8 +42,8 @@ Backend backend_of(const cases::Scene& scene, Backend asked) {
   return asked;
 }
 
-bool takes_factorisation(double n_nodes) {
-  return 3 * n_nodes <= double(direct_solver_limit);
+bool takes_factorisation(double n_nodes, const cases::Fem& fem) {
+  return cases::facts_of(fem.element).is_mixed || 3 * n_nodes <= double(direct_solver_limit);
 }
 
 mechanics::EquilibriumSettings default_settings() {

@@ -48,7 +48,8 @@ inline double n_element_nodes(const cases::Scene& scene) {
   return n_element_nodes(scene.definition.fem, double(scene.mesh.nodes.size()));
 }
 
-/// Whether the assembled backend factorises a tangent of that many nodes.
-bool takes_factorisation(double n_nodes);
+/// Whether the assembled backend factorises a tangent of that many nodes. It does always where pressures are
+/// unknowns beside the displacement: that tangent is indefinite, and multigrid does not take it.
+bool takes_factorisation(double n_nodes, const cases::Fem& fem);
 
 } // namespace springproof::fem_reference

@@ -196,6 +196,33 @@ Discretisation::Discretisation(const cases::Scene& scene, const ElementType& typ
       constraints(scene, nodes, communicator), load(assemble_loads(scene, *space_, nodes, geometry)) {
   if (!scene.material_of_cell.empty())
     for (const int cell : nodes.mesh_cell) material_of_cell.push_back(scene.material_of_cell[index(cell)]);
+  if (element.pressure == Pressure::nodes) find_pressures();
+}
+
+void Discretisation::find_pressures() {
+  const Vector volumes = make_vector();
+  {
+    const WriteEntries sum(volumes.get());
+    for (int cell = 0; cell < nodes.n_cells; ++cell) {
+      const CellGeometry g = geometry.of(cell);
+      const int n_modes = element.n_pressure_modes;
+      for (int i = 0; i < g.n_points * n_modes; ++i)
+        sum[pressure_of(nodes.of_cell[index(cell * nodes.per_cell + i % n_modes)])] +=
+            g.weights[i / n_modes] * g.modes[i];
+    }
+  }
+  mechanics::petsc::add_ghosts(volumes.get());
+  const ReadEntries sums(volumes.get());
+  for (int node = 0; node < nodes.n_owned; ++node)
+    if (!is_held(pressure_of(node))) pressures.emplace_back(node, sums[pressure_of(node)]);
+  n_pressures = static_cast<long>(pressures.size());
+  MPI_Allreduce(MPI_IN_PLACE, &n_pressures, 1, MPI_LONG, MPI_SUM, communicator);
+}
+
+/// Pressures are those of vertices.
+bool Discretisation::is_held(std::size_t unknown) const {
+  const std::size_t n = index(n_per_node()), node = unknown / n, component = unknown % n;
+  return component < 3 ? constraints.is_constrained[3 * node + component] != 0 : nodes.mesh_node[node] < 0;
 }
 
 Discretisation::~Discretisation() = default;
@@ -209,9 +236,9 @@ Matrix Discretisation::make_tangent_matrix() const {
   dealii::IndexSet relevant;
   dealii::DoFTools::extract_locally_relevant_dofs(space_->dofs, relevant);
   dealii::AffineConstraints<double> lines(relevant);
-  for (std::size_t i = 0; i < constraints.is_constrained.size(); ++i)
-    if (constraints.is_constrained[i])
-      lines.add_line(3 * static_cast<unsigned>(nodes.global[i / 3]) + static_cast<unsigned>(i % 3));
+  const auto n = static_cast<unsigned>(n_per_node());
+  for (unsigned i = 0; i < n * nodes.point.size(); ++i)
+    if (is_held(i)) lines.add_line(n * static_cast<unsigned>(nodes.global[i / n]) + i % n);
   lines.close();
   dealii::DynamicSparsityPattern pattern(relevant);
   dealii::DoFTools::make_sparsity_pattern(space_->dofs, pattern, lines, false);
@@ -222,7 +249,7 @@ Matrix Discretisation::make_tangent_matrix() const {
   Mat matrix = wrapper;
   check(PetscObjectReference(reinterpret_cast<PetscObject>(matrix))); // outlives its wrapper
   Matrix result(matrix);
-  check(MatSetBlockSize(matrix, 3)); // multigrid then coarsens nodes, not components
+  check(MatSetBlockSize(matrix, n_per_node())); // multigrid then coarsens nodes, not components
   const Vector layout = make_vector();
   const auto numbers = get<ISLocalToGlobalMapping>(VecGetLocalToGlobalMapping, layout.get());
   check(MatSetLocalToGlobalMapping(matrix, numbers, numbers));

@@ -3,6 +3,7 @@
 #include "fem_reference/geometry.hpp"
 
 #include <memory>
+#include <utility>
 
 namespace springproof::fem_reference {
 
@@ -53,15 +54,28 @@ class Discretisation {
   Constraints constraints;
   std::vector<double> load;          ///< the scene's, N per owned degree of freedom
   std::vector<int> material_of_cell; ///< in the scene's materials; empty when there is but one
+  /// Owned nodes with a pressure, and the integral of each one's shape function, mm³.
+  std::vector<std::pair<int, double>> pressures;
+  long n_pressures = 0; ///< of all ranks
 
   /// Full load of a scene that differs from this one in its loads alone, N per owned degree of freedom.
   std::vector<double> load_of(const cases::Scene& scene) const;
 
-  /// A ghosted vector of displacements or forces, zero.
-  Vector make_vector() const { return nodes.make_vector(communicator); }
-  /// A zero matrix with the tangent's sparsity, which takes values at local degrees of freedom. Rows and
-  /// columns of constrained degrees of freedom have their diagonal alone.
+  /// Unknowns of the linear systems: those of local node k are n_per_node*k + component, the fourth a
+  /// pressure.
+  int n_per_node() const { return element.n_unknowns_per_node(); }
+  std::size_t unknown(std::size_t dof) const { return dof / 3 * cases::index(n_per_node()) + dof % 3; }
+  std::size_t pressure_of(int node) const { return 4 * cases::index(node) + 3; }
+  bool is_held(std::size_t unknown) const;
+
+  /// A ghosted vector of the unknowns, zero.
+  Vector make_vector() const { return nodes.make_vector(communicator, n_per_node()); }
+  /// A zero matrix with the tangent's sparsity, which takes values at local unknowns. Rows and columns of
+  /// those that are held have their diagonal alone.
   Matrix make_tangent_matrix() const;
+
+ private:
+  void find_pressures();
 };
 
 } // namespace springproof::fem_reference

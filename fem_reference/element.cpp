@@ -9,6 +9,7 @@
 #include <array>
 #include <cassert>
 #include <fmt/format.h>
+#include <numeric>
 
 /// BLAS's product C = A B, each factor as it is ("N") or transposed ("T"), stored by columns.
 extern "C" void dgemm_(const char* transpose_a, const char* transpose_b, const int* rows, const int* columns,
@@ -30,11 +31,12 @@ struct Row {
   int n_pressure_modes;
   int n_bubbles = 0;
 };
-constexpr std::array<Row, 5> table{{{Element::q1_wilson, 0, 3},
+constexpr std::array<Row, 6> table{{{Element::q1_wilson, 0, 3},
                                     {Element::q1_bbar, 1},
                                     {Element::q1_p0, 1},
                                     {Element::q2_p1, 4},
-                                    {Element::p2_p0, 1}}};
+                                    {Element::p2_p0, 1},
+                                    {Element::p2_p1, 4}}};
 
 } // namespace
 
@@ -51,8 +53,9 @@ ElementType element_type(const cases::Fem& fem, const LawTraits& law) {
       std::find_if(table.begin(), table.end(), [&](const Row& one) { return one.element == fem.element; });
   const Row own = row != table.end() ? *row : Row{fem.element, 0};
   assert(facts.has_pressure == (own.n_pressure_modes > 0));
+  const Pressure with_modes = facts.is_mixed ? Pressure::nodes : Pressure::modes;
   return {fem.element,          facts.is_tetrahedron ? tetrahedron : cases::CellShape::hexahedron,
-          facts.degree,         facts.has_pressure ? Pressure::modes : Pressure::pointwise,
+          facts.degree,         facts.has_pressure ? with_modes : Pressure::pointwise,
           own.n_pressure_modes, own.n_bubbles};
 }
 
@@ -74,8 +77,9 @@ CellKernel::CellKernel(const ElementType& element) : element_(element) {
   dilatation_.resize(n_points);
   cofactor_.resize(n_points);
   target_.resize(n_points);
-  result_.force.resize(n_dofs);
-  result_.tangent.resize(n_dofs, n_dofs);
+  const int n_rows = n_dofs + (element.pressure == Pressure::nodes ? n_modes : 0);
+  result_.force.resize(n_rows);
+  result_.tangent.resize(n_rows, n_rows);
   result_.internal_residual.resize(n_internal);
   result_.internal_slope.resize(n_internal, n_dofs);
   force_.resize(3 * n_functions);
@@ -158,26 +162,39 @@ void CellKernel::volume_gradients(const CellGeometry& g) {
     }
 }
 
-void CellKernel::condense(const CellGeometry& g, Wanted wanted) {
+/// Sets R and C.
+void CellKernel::balance_volumes(const CellGeometry& g) {
   const int n_modes = element_.n_pressure_modes;
-  Eigen::VectorXd residual = Eigen::VectorXd::Zero(n_modes);
-  Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(n_modes, n_modes);
-  double rest_volume = 0;
+  volume_residual_.setZero(n_modes);
+  compliance_.setZero(n_modes, n_modes);
   for (int q = 0; q < g.n_points; ++q) {
     const Eigen::Map<const Eigen::VectorXd> mode(g.modes + q * n_modes, n_modes);
     const auto& target = target_[static_cast<std::size_t>(q)];
-    residual += g.weights[q] * (dilatation_[static_cast<std::size_t>(q)] - target.value) * mode;
-    compliance += g.weights[q] * target.slope * mode * mode.transpose();
-    rest_volume += g.weights[q];
+    volume_residual_ += g.weights[q] * (dilatation_[static_cast<std::size_t>(q)] - target.value) * mode;
+    compliance_ += g.weights[q] * target.slope * mode * mode.transpose();
   }
-  result_.volume_mismatch = residual.cwiseAbs().maxCoeff() / rest_volume;
+}
+
+void CellKernel::condense(const CellGeometry& g, Wanted wanted) {
+  balance_volumes(g);
+  const double rest_volume = std::accumulate(g.weights, g.weights + g.n_points, 0.);
+  result_.volume_mismatch = volume_residual_.cwiseAbs().maxCoeff() / rest_volume;
   if (wanted == Wanted::stress) return;
   volume_gradients(g);
-  const Eigen::LLT<Eigen::MatrixXd> factor(compliance);
+  const Eigen::LLT<Eigen::MatrixXd> factor(compliance_);
   result_.internal_slope = factor.solve(volume_gradient_);
-  result_.internal_residual = factor.solve(residual);
+  result_.internal_residual = factor.solve(volume_residual_);
   result_.force.noalias() += volume_gradient_.transpose() * result_.internal_residual;
   result_.tangent.noalias() += volume_gradient_.transpose() * result_.internal_slope;
+}
+
+void CellKernel::append_pressures(const CellGeometry& g, Wanted wanted) {
+  balance_volumes(g);
+  result_.force << force_, volume_residual_;
+  result_.plain_force = result_.force;
+  if (wanted == Wanted::stress) return;
+  volume_gradients(g);
+  result_.tangent << stiffness_, volume_gradient_.transpose(), volume_gradient_, -compliance_;
 }
 
 void CellKernel::condense_bubbles(const CellGeometry& g, Wanted wanted) {
@@ -209,6 +226,10 @@ const CellResult& CellKernel::evaluate(const CellGeometry& g, const double* disp
   if (wanted == Wanted::stress_and_tangent) add_stiffness(g);
   if (element_.n_bubbles > 0) {
     condense_bubbles(g, wanted);
+    return result_;
+  }
+  if (element_.pressure == Pressure::nodes) {
+    append_pressures(g, wanted);
     return result_;
   }
   result_.plain_force = force_;

@@ -16,7 +16,9 @@ namespace springproof::fem_reference {
 /// 5 to 30 iterations where elimination was measured to take 40 to 240, to the same solution.
 enum class Pressure {
   pointwise, ///< p(J) at every quadrature point
-  modes ///< an unknown of its own per cell, balanced with the cell's volume and condensed in the linear solve
+  modes,     ///< an unknown of its own per cell, balanced with the cell's volume and condensed in the linear
+             ///< solve
+  nodes      ///< continuous: unknowns of the vertices, in the linear solve beside the displacements
 };
 
 /// An element, as its cells' equations need it.
@@ -25,7 +27,7 @@ struct ElementType {
   cases::CellShape shape;
   int degree; ///< the displacement's; of a hexahedron, per direction
   Pressure pressure;
-  int n_pressure_modes; ///< 1: constant; 4: linear in the rest coordinates, discontinuous
+  int n_pressure_modes; ///< 1: constant; 4: linear in the rest coordinates, or a tetrahedron's vertices'
   /// Displacements of its own that a cell adds, each with three components: 3 are Wilson's 1 - xi_a², a = 1,
   /// 2, 3, whose gradients are constant-free (Taylor, Beresford and Wilson, Int. J. Numer. Meth. Engng. 10,
   /// 1976), on any hexahedron.
@@ -35,7 +37,10 @@ struct ElementType {
   /// Points at which a cell's stress is evaluated. In tetrahedra they are as few as make its forces exact in
   /// small strains, 1 or 4.
   int n_points() const;
-  /// Unknowns of a cell that are condensed in the linear solve: pressures, or components of bubbles.
+  /// Unknowns in a linear system for each node: its displacement, and a pressure, held where it has none.
+  int n_unknowns_per_node() const { return pressure == Pressure::nodes ? 4 : 3; }
+  /// Numbers of a cell's state beside the displacement: pressures, those of its vertices too, or components
+  /// of bubbles. But for those of vertices they are condensed in the linear solve.
   int n_internal() const { return n_pressure_modes + 3 * n_bubbles; }
 };
 
@@ -55,7 +60,8 @@ struct CellGeometry {
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// What a cell contributes, and what its condensed unknowns need afterwards: pressures (MPa) or the
-/// components of bubbles (mm, 3*bubble + i).
+/// components of bubbles (mm, 3*bubble + i). With pressures of nodes none are condensed: the forces have R
+/// after them, and the tangent is the cell's part [K B^T; B -C] of the body's (CellKernel).
 struct CellResult {
   bool valid;              ///< false: J <= 0 or not a number at a quadrature point; nothing else is set
   double volume_mismatch;  ///< largest |integral of mode (J - J(p))| / rest volume
@@ -71,7 +77,8 @@ struct CellResult {
 ///
 /// Internal force f = sum w (P + p cof F) . grad N. With pressure modes phi_m the cell also balances
 /// R_m = sum w phi_m (J - J(p)), whose linearisation  R + B du - C dp = 0, C_mn = sum w phi_m phi_n J'(p), is
-/// solved for dp, which leaves K + B^T C^-1 B and f + B^T C^-1 R for the displacement.
+/// solved for dp, which leaves K + B^T C^-1 B and f + B^T C^-1 R for the displacement. Pressures of nodes are
+/// in balance with the volumes of all cells around, so they stay.
 ///
 /// Bubbles b are displacements that the cell alone has: their forces f_b vanish. Newton's method solves
 /// f_b + K_bu du + K_bb db = 0 for db, which leaves K - K_ub K_bb^-1 K_bu and f - K_ub K_bb^-1 f_b.
@@ -113,6 +120,8 @@ class CellKernel {
 
  private:
   void volume_gradients(const CellGeometry& geometry);
+  void balance_volumes(const CellGeometry& geometry);
+  void append_pressures(const CellGeometry& geometry, Wanted wanted);
   void add_stiffness(const CellGeometry& geometry);
   void condense(const CellGeometry& geometry, Wanted wanted);
   void condense_bubbles(const CellGeometry& geometry, Wanted wanted);
@@ -125,6 +134,8 @@ class CellKernel {
   RowMajorMatrix stiffness_;         ///< between all functions
   std::vector<double> displacement_; ///< one for each function and component
   RowMajorMatrix volume_gradient_;   ///< (mode, dof): B
+  Eigen::VectorXd volume_residual_;  ///< R
+  Eigen::MatrixXd compliance_;       ///< C
   std::vector<double> right_factor_; ///< w A grad N: [((i*n_points + q)*3 + J)*n_dofs + dof]
 };
 

@@ -12,17 +12,23 @@ using mechanics::petsc::total;
 Assembly::Assembly(const Discretisation& discretisation, const std::vector<Formulation>& formulations)
     : discretisation_(discretisation), kernels_(kernels_of(formulations, discretisation.element)),
       tangent_(discretisation.make_tangent_matrix()) {
+  const ElementType& element = discretisation.element;
   const std::size_t n_dofs = 3 * index(discretisation.nodes.per_cell);
-  internal_residual_.resize(index(discretisation.nodes.n_cells) *
-                            index(discretisation.element.n_internal()));
-  internal_slope_.resize(n_internal() * n_dofs);
+  n_internal_ = index(discretisation.nodes.n_cells) * index(element.n_internal());
   cell_displacement_.resize(n_dofs);
   rows_.resize(n_dofs);
+  if (element.pressure == Pressure::nodes) {
+    rows_.resize(n_dofs + index(element.n_pressure_modes));
+    return;
+  }
+  internal_residual_.resize(n_internal());
+  internal_slope_.resize(n_internal() * n_dofs);
 }
 
-std::size_t Assembly::dof(int cell, std::size_t k) const {
+std::size_t Assembly::unknown(int cell, std::size_t k) const {
   const auto n = index(discretisation_.nodes.per_cell);
-  return 3 * index(discretisation_.nodes.of_cell[index(cell) * n + k % n]) + k / n;
+  return index(discretisation_.nodes.of_cell[index(cell) * n + k % n]) * index(discretisation_.n_per_node()) +
+         k / n;
 }
 
 CellKernel& Assembly::kernel(int cell) const {
@@ -47,19 +53,21 @@ void Assembly::add_tangent(int cell, const CellResult& result, const std::vector
                            const WriteEntries& condensed) {
   const std::size_t n_dofs = rows_.size();
   for (std::size_t k = 0; k < n_dofs; ++k) {
-    rows_[k] = static_cast<PetscInt>(dof(cell, k));
+    rows_[k] = static_cast<PetscInt>(unknown(cell, k));
     condensed[index(rows_[k])] += result.force[k];
   }
-  for (std::size_t l = 0; l < n_dofs; ++l) {
-    const double change = gap[index(rows_[l])];
+  const auto n_per_node = static_cast<PetscInt>(discretisation_.n_per_node());
+  for (std::size_t l = 0; l < cell_displacement_.size(); ++l) {
+    const double change = gap[index(3 * (rows_[l] / n_per_node) + rows_[l] % n_per_node)];
     for (std::size_t k = 0; k < n_dofs && change != 0; ++k)
       condensed[index(rows_[k])] += result.tangent(k, l) * change;
   }
   for (PetscInt& row : rows_)
-    if (discretisation_.constraints.is_constrained[index(row)]) row = -1; // PETSc ignores it
+    if (discretisation_.is_held(index(row))) row = -1; // PETSc ignores it
   const auto size = static_cast<PetscInt>(n_dofs);
   check(MatSetValuesLocal(tangent(), size, rows_.data(), size, rows_.data(), result.tangent.data(),
                           ADD_VALUES));
+  if (internal_residual_.empty()) return;
   const auto first = cell * discretisation_.element.n_internal();
   std::copy(result.internal_residual.begin(), result.internal_residual.end(),
             internal_residual_.begin() + first);
@@ -74,13 +82,14 @@ std::optional<InternalImbalance> Assembly::assemble(const State& state, const st
   std::optional<InternalImbalance> imbalance = InternalImbalance{};
   if (wants_tangent) {
     check(MatZeroEntries(tangent()));
-    for (int i = 0; i < 3 * d.nodes.n_owned; ++i)
-      if (d.constraints.is_constrained[index(i)]) check(MatSetValueLocal(tangent(), i, i, 1, ADD_VALUES));
+    for (int i = 0; i < d.n_per_node() * d.nodes.n_owned; ++i)
+      if (d.is_held(index(i))) check(MatSetValueLocal(tangent(), i, i, 1, ADD_VALUES));
   }
   {
     const WriteEntries plain(force), with_internals(condensed);
-    std::fill_n(plain.data(), n_displacements(), 0.);
-    if (wants_tangent) std::fill_n(with_internals.data(), n_displacements(), 0.);
+    const std::size_t n_unknowns = index(d.n_per_node()) * d.nodes.point.size();
+    std::fill_n(plain.data(), n_unknowns, 0.);
+    if (wants_tangent) std::fill_n(with_internals.data(), n_unknowns, 0.);
     for (int cell = 0; cell < d.nodes.n_cells; ++cell) {
       const CellResult& result = kernel(cell).evaluate(d.geometry.of(cell), displacement(cell, state),
                                                        internal(cell, state), wanted);
@@ -90,7 +99,7 @@ std::optional<InternalImbalance> Assembly::assemble(const State& state, const st
       }
       imbalance->volume_mismatch = std::max(imbalance->volume_mismatch, result.volume_mismatch);
       imbalance->of_bubbles += result.bubble_imbalance;
-      for (std::size_t k = 0; k < rows_.size(); ++k) plain[dof(cell, k)] += result.plain_force[k];
+      for (std::size_t k = 0; k < rows_.size(); ++k) plain[unknown(cell, k)] += result.plain_force[k];
       if (wants_tangent) add_tangent(cell, result, gap, with_internals);
     }
   }
@@ -104,12 +113,22 @@ std::optional<InternalImbalance> Assembly::assemble(const State& state, const st
 
 void Assembly::complete_correction(State& correction) const {
   const std::size_t n_dofs = rows_.size(), n_modes = index(discretisation_.element.n_internal());
-  for (std::size_t m = 0; m < n_internal(); ++m) {
+  for (std::size_t m = 0; m < internal_residual_.size(); ++m) {
     double change = internal_residual_[m];
     for (std::size_t k = 0; k < n_dofs; ++k)
-      change += internal_slope_[m * n_dofs + k] * correction.data()[dof(static_cast<int>(m / n_modes), k)];
+      change +=
+          internal_slope_[m * n_dofs + k] * correction.data()[unknown(static_cast<int>(m / n_modes), k)];
     correction.data()[n_displacements() + m] = change;
   }
+}
+
+void Assembly::set_pressures(const ReadEntries& unknowns, State& correction) const {
+  const Nodes& nodes = discretisation_.nodes;
+  const int n_modes = discretisation_.element.n_pressure_modes;
+  double* pressure = correction.data() + n_displacements();
+  for (int cell = 0; cell < nodes.n_cells; ++cell)
+    for (int m = 0; m < n_modes; ++m)
+      *pressure++ = unknowns[discretisation_.pressure_of(nodes.of_cell[index(cell * nodes.per_cell + m)])];
 }
 
 void Assembly::internals_are_balanced() {
@@ -142,7 +161,7 @@ void EquilibriumEquations::residual(const State& at, double load_factor, mechani
   if (!std::isfinite(size_.relative)) return;
   const ReadEntries force(force_.get());
   for (std::size_t i = 0; i < discretisation_.load.size(); ++i)
-    residual[static_cast<Eigen::Index>(i)] = -force[i];
+    residual[static_cast<Eigen::Index>(i)] = -force[discretisation_.unknown(i)];
 }
 
 bool EquilibriumEquations::direction(const State& at, const State&, double load_factor, double,
@@ -153,8 +172,12 @@ bool EquilibriumEquations::direction(const State& at, const State&, double load_
   mechanics::petsc::update_ghosts(correction_.get());
   step.setZero(at.size());
   const ReadEntries correction(correction_.get());
-  std::copy_n(correction.data(), n_dofs(), step.begin());
-  assembly_.complete_correction(step);
+  for (std::size_t i = 0; i < n_dofs(); ++i)
+    step[static_cast<Eigen::Index>(i)] = correction[discretisation_.unknown(i)];
+  if (has_nodal_pressures())
+    assembly_.set_pressures(correction, step);
+  else
+    assembly_.complete_correction(step);
   return true;
 }
 
@@ -179,8 +202,11 @@ void EquilibriumEquations::evaluate(const State& state, double load_factor, Want
   if (wanted == Wanted::stress) return;
   // minus the condensed imbalance, and the prescribed gap on constrained degrees of freedom
   const WriteEntries values(right_hand_side_.get());
-  for (std::size_t i = 0; i < d.load.size(); ++i)
-    values[i] = d.constraints.is_constrained[i] ? prescribed_gap_[i] : load(i, load_factor) - values[i];
+  for (std::size_t i = 0; i < d.load.size(); ++i) {
+    double& value = values[d.unknown(i)];
+    value = d.constraints.is_constrained[i] ? prescribed_gap_[i] : load(i, load_factor) - value;
+  }
+  for (const auto& pressure : d.pressures) values[d.pressure_of(pressure.first)] *= -1;
   ++n_tangents_;
   has_tangent_ = std::isfinite(size_.relative); // on all ranks alike
 }
@@ -215,14 +241,11 @@ void EquilibriumEquations::set_step(const mechanics::StepTerms& terms) {
   has_tangent_ = false;
 }
 
-namespace {
-
-void write(const State& from, Vec to) {
+/// Sets unknowns to displacements or forces.
+void EquilibriumEquations::write(const State& from, Vec to) const {
   const WriteEntries entries(to);
-  Eigen::Map<State>(entries.data(), from.size()) = from;
+  for (Eigen::Index i = 0; i < from.size(); ++i) entries[discretisation_.unknown(index(i))] = from[i];
 }
-
-} // namespace
 
 /// Returns a motion's degrees of freedom, those of other ranks brought up to date.
 State EquilibriumEquations::with_ghosts(const State& motion) {
@@ -230,7 +253,9 @@ State EquilibriumEquations::with_ghosts(const State& motion) {
   write(motion.head(n), correction_.get());
   mechanics::petsc::update_ghosts(correction_.get());
   const ReadEntries all(correction_.get());
-  return Eigen::Map<const State>(all.data(), n);
+  State found(n);
+  for (Eigen::Index i = 0; i < n; ++i) found[i] = all[discretisation_.unknown(index(i))];
+  return found;
 }
 
 /// Sets inertia_force_ to a matrix, which all ranks add to, times a motion with current ghosts.
@@ -245,12 +270,14 @@ void EquilibriumEquations::multiply(const LocalMatrix& matrix, const State& moti
   product.setZero(motion.size());
   const ReadEntries of_all(inertia_force_.get());
   for (int i = 0; i < 3 * discretisation_.nodes.n_owned; ++i)
-    if (!discretisation_.constraints.is_constrained[index(i)]) product[i] = of_all[i];
+    if (!discretisation_.constraints.is_constrained[index(i)])
+      product[i] = of_all[discretisation_.unknown(index(i))];
 }
 
 void EquilibriumEquations::complete(State& motion) {
   motion.head(static_cast<Eigen::Index>(n_dofs())) = with_ghosts(motion);
-  if (!is_linear_ || assembly_.n_internal() == 0) return;
+  // Steps solve for pressures of nodes, whatever they begin with.
+  if (!is_linear_ || assembly_.n_internal() == 0 || has_nodal_pressures()) return;
   if (!has_tangent_) evaluate(rest(), 0, Wanted::stress_and_tangent);
   assembly_.internals_are_balanced();
   assembly_.complete_correction(motion);
@@ -269,7 +296,8 @@ void EquilibriumEquations::add_inertia(const State& state, Wanted wanted) {
     set_inertia_force(motion_->added, way);
     const ReadEntries product(inertia_force_.get());
     const WriteEntries sum(to);
-    for (std::size_t i = 0; i < discretisation_.load.size(); ++i) sum[i] += product[i];
+    for (std::size_t i = 0; i < discretisation_.load.size(); ++i)
+      sum[discretisation_.unknown(i)] += product[discretisation_.unknown(i)];
   };
   State way = state.head(n) - step_->origin.head(n);
   add(way, force_.get());
@@ -284,16 +312,20 @@ void EquilibriumEquations::add_to_tangent(const LocalMatrix& added) {
   const auto& is_constrained = discretisation_.constraints.is_constrained;
   std::vector<PetscInt> columns;
   std::vector<PetscScalar> values;
-  for (PetscInt row = 0; row < added.rows(); ++row) {
+  const auto unknown = [this](Eigen::Index dof) {
+    return static_cast<PetscInt>(discretisation_.unknown(index(dof)));
+  };
+  for (Eigen::Index row = 0; row < added.rows(); ++row) {
     if (is_constrained[index(row)]) continue;
     columns.clear();
     values.clear();
     for (LocalMatrix::InnerIterator entry(added, row); entry; ++entry) {
       if (is_constrained[index(entry.col())]) continue;
-      columns.push_back(static_cast<PetscInt>(entry.col()));
+      columns.push_back(unknown(entry.col()));
       values.push_back(entry.value());
     }
-    check(MatSetValuesLocal(assembly_.tangent(), 1, &row, static_cast<PetscInt>(columns.size()),
+    const PetscInt in_tangent = unknown(row);
+    check(MatSetValuesLocal(assembly_.tangent(), 1, &in_tangent, static_cast<PetscInt>(columns.size()),
                             columns.data(), values.data(), ADD_VALUES));
   }
   check(MatAssemblyBegin(assembly_.tangent(), MAT_FINAL_ASSEMBLY));
@@ -306,8 +338,8 @@ void EquilibriumEquations::evaluate_for_direction(const State& state, double loa
   if (is_linear_ && has_tangent_) {
     evaluate(state, load_factor, Wanted::stress);
     // The tangent is needed for the forces of supports that have to move; supports that a step in time has
-    // moved leave pressures behind.
-    if (largest_gap_ == 0 && (!step_ || size_.constraints_hold)) {
+    // moved leave pressures of cells behind.
+    if (largest_gap_ == 0 && (!step_ || has_nodal_pressures() || size_.constraints_hold)) {
       assembly_.internals_are_balanced();
       check(VecCopy(force_.get(), right_hand_side_.get()));
       check(VecScale(right_hand_side_.get(), -1));
@@ -321,24 +353,28 @@ void EquilibriumEquations::evaluate_for_direction(const State& state, double loa
 /// freedom.
 void EquilibriumEquations::measure(const std::optional<InternalImbalance>& internal, double load_factor) {
   const auto& d = discretisation_;
-  double imbalance = internal ? internal->of_bubbles : 0, reaction = 0;
+  double imbalance = internal ? internal->of_bubbles : 0, reaction = 0,
+         mismatch = internal ? internal->volume_mismatch : 0;
   largest_gap_ = 0;
   const WriteEntries force(force_.get());
   for (std::size_t i = 0; i < d.load.size(); ++i) {
+    double& here = force[d.unknown(i)];
     if (d.constraints.is_constrained[i]) {
-      reaction += force[i] * force[i];
+      reaction += here * here;
       largest_gap_ = std::max(largest_gap_, std::abs(prescribed_gap_[i]));
-      force[i] = 0;
+      here = 0;
     } else {
-      force[i] -= load(i, load_factor);
-      imbalance += force[i] * force[i];
+      here -= load(i, load_factor);
+      imbalance += here * here;
     }
   }
+  for (const auto& [node, volume] : d.pressures)
+    mismatch = std::max(mismatch, std::abs(force[d.pressure_of(node)]) / volume);
   imbalance = std::sqrt(total(imbalance, MPI_SUM, communicator_));
   largest_gap_ = total(largest_gap_, MPI_MAX, communicator_);
   reaction = std::sqrt(total(reaction, MPI_SUM, communicator_));
   size_.relative = imbalance == 0 ? 0 : imbalance / scale(d.constraints.are_moved, reaction);
-  const double mismatch = total(internal ? internal->volume_mismatch : 0, MPI_MAX, communicator_);
+  mismatch = total(mismatch, MPI_MAX, communicator_);
   size_.constraints_hold = mismatch <= volume_tolerance && largest_gap_ <= 1e-12;
   if (total(internal ? 1 : 0, MPI_MIN, communicator_) == 0 || !std::isfinite(imbalance))
     size_ = {std::numeric_limits<double>::quiet_NaN(), false};

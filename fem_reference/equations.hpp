@@ -26,7 +26,7 @@ class Assembly {
   Assembly(const Discretisation& discretisation, const std::vector<Formulation>& formulations);
 
   /// @param gap        mm to the prescribed displacements, per local degree of freedom; 0 where unconstrained
-  /// @param force      becomes the internal force, N
+  /// @param force      becomes the internal force, N, with what volumes lack at pressures of nodes, mm³
   /// @param condensed  when a tangent is wanted, becomes the internal force with the imbalance of internal
   ///                   unknowns and what the gap will add to it, N
   /// @return nothing when one of this rank's cells is inverted at a quadrature point, or not a number: sums
@@ -36,6 +36,8 @@ class Assembly {
 
   /// Sets the internal unknowns that belong to a correction's displacement.
   void complete_correction(State& correction) const;
+  /// Sets the cells' pressures to those of their nodes.  @param unknowns  those of this rank, with ghosts
+  void set_pressures(const ReadEntries& unknowns, State& correction) const;
   /// Takes the internal unknowns of the current state as balanced, for a linear body's next correction.
   void internals_are_balanced();
   /// Calls action(cell, its geometry, displacement, internal unknowns) for this rank's cells.
@@ -45,7 +47,7 @@ class Assembly {
       action(cell, discretisation_.geometry.of(cell), displacement(cell, state), internal(cell, state));
   }
 
-  std::size_t n_internal() const { return internal_residual_.size(); }
+  std::size_t n_internal() const { return n_internal_; }
   Mat tangent() const { return tangent_.get(); }
 
  private:
@@ -55,8 +57,8 @@ class Assembly {
   const double* displacement(int cell, const State& state);
   void add_tangent(int cell, const CellResult& result, const std::vector<double>& gap,
                    const WriteEntries& condensed);
-  /// Local degree of freedom k of a cell, in the order of its forces.
-  std::size_t dof(int cell, std::size_t k) const;
+  /// Unknown k of a cell, in the order of its forces.
+  std::size_t unknown(int cell, std::size_t k) const;
   std::size_t n_displacements() const { return discretisation_.constraints.is_constrained.size(); }
 
   const Discretisation& discretisation_;
@@ -65,9 +67,10 @@ class Assembly {
   std::vector<double> internal_residual_, internal_slope_; ///< every cell's, as in CellResult
   std::vector<double> cell_displacement_;
   std::vector<PetscInt> rows_;
+  std::size_t n_internal_;
 };
 
-constexpr double volume_tolerance = 1e-12; ///< relative volume of a cell's condensed pressure
+constexpr double volume_tolerance = 1e-12; ///< of a cell or of a pressure's shape function, relative
 
 /// The discrete equations of a scene: internal force = load factor * load, or those of its motion. Supports
 /// are part of the equations: a step takes constrained degrees of freedom to where they have to be. Pressures
@@ -91,7 +94,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   Work work() const override { return {solver_.n_iterations(), solver_.n_factorisations(), n_evaluations_}; }
 
   std::size_t n_unknowns() const override {
-    return static_cast<std::size_t>(discretisation_.constraints.n_unknowns);
+    return static_cast<std::size_t>(discretisation_.constraints.n_unknowns + discretisation_.n_pressures);
   }
 
   /// Gives the body a scene's masses, damping and loads in time, which the functions below use.
@@ -124,15 +127,17 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   double load(std::size_t dof, double load_factor) const;
   void add_inertia(const State& state, Wanted wanted);
   void multiply(const LocalMatrix& matrix, const State& motion, State& product);
+  void write(const State& from, Vec to) const;
   State with_ghosts(const State& motion);
   void set_inertia_force(const LocalMatrix& matrix, const State& motion);
   void add_to_tangent(const LocalMatrix& added);
+  bool has_nodal_pressures() const { return discretisation_.element.pressure == Pressure::nodes; }
   void measure(const std::optional<InternalImbalance>& internal, double load_factor);
 
   const Discretisation& discretisation_;
   Assembly assembly_;
   LinearSolver solver_;
-  Vector force_;           ///< imbalance of the last evaluation, zero on constrained degrees of freedom, N
+  Vector force_; ///< imbalance of the last evaluation, zero on constrained degrees of freedom, N, mm³
   Vector right_hand_side_; ///< the Newton system's
   Vector correction_;      ///< its solution
   Vector inertia_force_;   ///< what a step in time adds

@@ -14,15 +14,16 @@ namespace springproof::fem_reference {
 using cases::index;
 using Eigen::Vector3d;
 
-/// deal.II numbers the three components of every support point one after another: a node is a block of three.
+/// deal.II numbers the components of every support point one after another: a node is a block of them.
 Nodes::Nodes(const Space& space, const cases::Scene& scene) {
   const dealii::IndexSet& owned = space.dofs.locally_owned_dofs();
   dealii::IndexSet ghosts = dealii::DoFTools::extract_locally_active_dofs(space.dofs);
   ghosts.subtract_set(owned);
+  const unsigned n = space.element.n_components();
   for (const auto& dofs : {owned, ghosts})
     for (const auto dof : dofs)
-      if (dof % 3 == 0) global.push_back(static_cast<PetscInt>(dof / 3));
-  n_owned = static_cast<int>(owned.n_elements() / 3);
+      if (dof % n == 0) global.push_back(static_cast<PetscInt>(dof / n));
+  n_owned = static_cast<int>(owned.n_elements() / n);
   per_cell = static_cast<int>(space.node_element->n_dofs_per_cell());
   for (const auto& at : space.node_element->get_unit_support_points()) {
     in_reference_cell.emplace_back(at[0], at[1], at[2]);
@@ -42,8 +43,8 @@ Nodes::Nodes(const Space& space, const cases::Scene& scene) {
     for (unsigned a = 0; a < space.node_element->n_dofs_per_cell(); ++a) {
       const auto dof = dofs[space.element.component_to_system_index(0, a)];
       const auto node = owned.is_element(dof)
-                            ? owned.index_within_set(dof) / 3
-                            : static_cast<unsigned>(n_owned) + ghosts.index_within_set(dof) / 3;
+                            ? owned.index_within_set(dof) / n
+                            : static_cast<unsigned>(n_owned) + ghosts.index_within_set(dof) / n;
       of_cell.push_back(static_cast<int>(node));
       point[node].setZero();
       for (const int v : between[a])
@@ -55,9 +56,9 @@ Nodes::Nodes(const Space& space, const cases::Scene& scene) {
   n_cells = static_cast<int>(mesh_cell.size());
 }
 
-Vector Nodes::make_vector(MPI_Comm communicator) const {
+Vector Nodes::make_vector(MPI_Comm communicator, int n) const {
   const auto n_ghosts = static_cast<PetscInt>(global.size()) - n_owned;
-  Vector vector(get<Vec>(VecCreateGhostBlock, communicator, 3, 3 * n_owned, PETSC_DECIDE, n_ghosts,
+  Vector vector(get<Vec>(VecCreateGhostBlock, communicator, n, n * n_owned, PETSC_DECIDE, n_ghosts,
                          global.data() + n_owned));
   check(VecSet(vector.get(), 0));
   return vector;
@@ -111,7 +112,10 @@ Geometry::Geometry(const Space& space, const Nodes& nodes, const ElementType& el
                                centre.JxW(0) * quadrature.weight(q) / values.JxW(q));
       }
     }
-    add_pressure_modes(n_cells++);
+    if (element.pressure == Pressure::nodes)
+      add_vertex_modes(space);
+    else
+      add_pressure_modes(n_cells++);
   }
 }
 
@@ -131,6 +135,13 @@ void Geometry::add_pressure_modes(int cell) {
   for (int q = 0; q < n_points; ++q) {
     const Vector3d offset = (point(cell, q) - centre) / std::cbrt(volume);
     for (int m = 0; m < n_modes_; ++m) modes_.push_back(m == 0 ? 1 : offset[m - 1]);
+  }
+}
+
+void Geometry::add_vertex_modes(const Space& space) {
+  for (const auto& at : space.quadrature.get_points()) {
+    const cases::ShapeValues values = cases::shape_values(space.shape, {at[0], at[1], at[2]});
+    modes_.insert(modes_.end(), values.begin(), values.begin() + n_modes_);
   }
 }
 

@@ -18,7 +18,8 @@ using mechanics::petsc::WriteEntries;
 struct Space;
 
 /// The nodes of one rank's cells under local numbers, the owned before the ghosts. The three degrees of
-/// freedom of local node k are 3*k + component, as in a vector of PETSc with ghosts.
+/// freedom of local node k are 3*k + component, as in a vector of PETSc with ghosts. Vertices come first in a
+/// cell of tetrahedra.
 struct Nodes {
   Nodes(const Space& space, const cases::Scene& scene);
 
@@ -36,7 +37,8 @@ struct Nodes {
   std::vector<Eigen::Vector3d> in_reference_cell;
 
   /// A vector of displacements or forces with ghosts, zero.
-  Vector make_vector(MPI_Comm communicator) const;
+  /// @param n  entries for each node
+  Vector make_vector(MPI_Comm communicator, int n = 3) const;
 };
 
 /// Shape functions, gradients, weights and pressure modes at the quadrature points of a rank's cells at rest.
@@ -59,6 +61,7 @@ class Geometry {
 
  private:
   void add_pressure_modes(int cell);
+  void add_vertex_modes(const Space& space);
 
   const Nodes& nodes_;
   int n_modes_, n_bubbles_;

@@ -10,7 +10,7 @@ using cases::index;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 /// Returns a function of a cell, its tangent at rest; degree of freedom i*n_nodes + a is component i of node
-/// a.
+/// a, and with i = 3 its pressure.
 auto rest_stiffness_of_cells(const Discretisation& d, const std::vector<Formulation>& formulations) {
   return [&d, kernels = kernels_of(formulations, d.element),
           displacement = std::vector<double>(3 * index(d.nodes.per_cell)),
@@ -25,11 +25,11 @@ auto rest_stiffness_of_cells(const Discretisation& d, const std::vector<Formulat
 /// Adds a factor times a cell's tangent at rest.
 void add_stiffness(const Discretisation& d, int cell, const RowMajorMatrix& tangent, double factor,
                    Triplets& entries) {
-  const int n = d.nodes.per_cell;
+  const int n = d.nodes.per_cell, n_per_node = d.n_per_node();
   const int* node = d.nodes.of_cell.data() + cell * n;
-  for (int row = 0; row < 3 * n; ++row)
-    for (int column = 0; column < 3 * n; ++column)
-      entries.emplace_back(3 * node[row % n] + row / n, 3 * node[column % n] + column / n,
+  for (int row = 0; row < tangent.rows(); ++row)
+    for (int column = 0; column < tangent.cols(); ++column)
+      entries.emplace_back(n_per_node * node[row % n] + row / n, n_per_node * node[column % n] + column / n,
                            factor * tangent(row, column));
 }
 
@@ -76,7 +76,7 @@ LocalMatrix rest_stiffness(const Discretisation& d, const std::vector<Formulatio
   const auto stiffness = rest_stiffness_of_cells(d, formulations);
   Triplets entries;
   for (int cell = 0; cell < d.nodes.n_cells; ++cell) add_stiffness(d, cell, stiffness(cell), 1, entries);
-  return matrix_of(entries, d.constraints.is_constrained.size());
+  return matrix_of(entries, index(d.n_per_node()) * d.nodes.point.size());
 }
 
 } // namespace springproof::fem_reference

@@ -21,7 +21,7 @@ struct Inertia {
 Inertia make_inertia(const cases::Scene& scene, const Discretisation& discretisation,
                      const std::vector<Formulation>& formulations);
 
-/// The tangent at rest, N/mm.
+/// The tangent at rest, N/mm, with a row and a column for every local unknown.
 LocalMatrix rest_stiffness(const Discretisation& discretisation,
                            const std::vector<Formulation>& formulations);
 

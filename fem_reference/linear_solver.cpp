@@ -26,7 +26,8 @@ std::optional<int> negative_pivots_of_symmetric_part(Mat tangent) {
 } // namespace
 
 LinearSolver::LinearSolver(const Discretisation& d, Mat tangent, TangentSymmetry symmetry)
-    : solver_(get<KSP>(KSPCreate, d.communicator)), tangent_(tangent), symmetry_(symmetry) {
+    : solver_(get<KSP>(KSPCreate, d.communicator)), tangent_(tangent), symmetry_(symmetry),
+      n_pressures_(static_cast<int>(d.n_pressures)) {
   KSP solver = solver_.get();
   check(KSPSetOptionsPrefix(solver, "fem_"));
   check(KSPSetOperators(solver, tangent_, tangent_));
@@ -35,11 +36,12 @@ LinearSolver::LinearSolver(const Discretisation& d, Mat tangent, TangentSymmetry
   // An unstable state's tangent is not positive definite. The option only makes MUMPS take pivots from the
   // diagonal, which is a fifth faster, and still counts the negative ones; a factorisation gone bad would
   // show in the residual.
-  if (symmetric) check(MatSetOption(tangent_, MAT_SPD, PETSC_TRUE));
-  mechanics::petsc::attach_rigid_motions(tangent, d.nodes.point);
+  const bool has_pressures = d.element.pressure == Pressure::nodes;
+  if (symmetric) check(MatSetOption(tangent_, has_pressures ? MAT_SYMMETRIC : MAT_SPD, PETSC_TRUE));
+  if (!has_pressures) mechanics::petsc::attach_rigid_motions(tangent, d.nodes.point);
   // an iterative solve leaves Newton a factor of 1e5 a step, hardly less than its quadratic convergence
   check(KSPSetTolerances(solver, 1e-5, PETSC_DEFAULT, PETSC_DEFAULT, 500));
-  if (d.constraints.n_unknowns <= direct_solver_limit) {
+  if (has_pressures || d.constraints.n_unknowns <= direct_solver_limit) {
     check(KSPSetType(solver, KSPPREONLY));
     check(PCSetType(preconditioner, symmetric ? PCCHOLESKY : PCLU));
     check(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS));
@@ -70,8 +72,11 @@ std::optional<int> LinearSolver::negative_eigenvalues() const {
   const auto preconditioner = get<PC>(KSPGetPC, solver_.get());
   const auto package = get<MatSolverType>(PCFactorGetMatSolverType, preconditioner);
   if (!is_direct_ || !get<PetscBool>(PetscStrcmp, package, MATSOLVERMUMPS)) return std::nullopt;
-  if (symmetry_ == TangentSymmetry::unsymmetric) return negative_pivots_of_symmetric_part(tangent_);
-  return negative_pivots(get<Mat>(PCFactorGetMatrix, preconditioner));
+  std::optional<int> found = symmetry_ == TangentSymmetry::unsymmetric
+                                 ? negative_pivots_of_symmetric_part(tangent_)
+                                 : negative_pivots(get<Mat>(PCFactorGetMatrix, preconditioner));
+  if (found) *found -= n_pressures_;
+  return found;
 }
 
 } // namespace springproof::fem_reference

@@ -22,15 +22,16 @@ class LinearSolver {
   long n_iterations() const { return n_iterations_; }
   long n_factorisations() const { return n_factorisations_; }
 
-  /// Negative eigenvalues of the symmetric part of the tangent last solved with, counted by MUMPS as negative
-  /// pivots; nothing when that solve was iterative. An unsymmetric tangent is factorised once more for it.
-  /// Zero: the equilibrium is stable.
+  /// Negative eigenvalues of the symmetric part of the tangent last solved with, its pressures eliminated,
+  /// counted by MUMPS as negative pivots; nothing when that solve was iterative. An unsymmetric tangent is
+  /// factorised once more for it. Zero: the equilibrium is stable.
   std::optional<int> negative_eigenvalues() const;
 
  private:
   mechanics::petsc::LinearSolver solver_;
   Mat tangent_;
   TangentSymmetry symmetry_;
+  int n_pressures_; ///< unknowns of the tangent's negative definite block -C
   bool is_direct_;
   long n_iterations_ = 0, n_factorisations_ = 0;
   long tangent_number_ = 0; ///< number of the tangent last solved with

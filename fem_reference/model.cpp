@@ -12,7 +12,7 @@ namespace springproof::fem_reference {
 
 namespace {
 
-/// Extracts rows and columns of free degrees of freedom.  @param number  each one's among the free, or -1
+/// Extracts rows and columns of free unknowns.  @param number  each one's among the free, or -1
 Eigen::SparseMatrix<double> on_free_dofs(const LocalMatrix& all, const std::vector<int>& number, int n_free) {
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index row = 0; row < all.rows(); ++row)
@@ -46,7 +46,8 @@ struct Model::Implementation {
   bool is_multigrid_to_blame(const cases::SolveError& error) {
     const cases::Scene& scene = grid->body.scene;
     return grid::bulk_over_shear(scene) > most_incompressible ||
-           (error.so_far().load_reached == 0 && takes_factorisation(n_element_nodes(scene))) ||
+           (error.so_far().load_reached == 0 &&
+            takes_factorisation(n_element_nodes(scene), scene.definition.fem)) ||
            !grid->body.can_leave_rest();
   }
 };
@@ -123,19 +124,22 @@ mechanics::VibratingBody vibrating_body(const cases::Scene& scene) {
   const AssembledBody body(scene, MPI_COMM_SELF);
   const Discretisation& d = body.discretisation;
   mechanics::VibratingBody result;
-  std::vector<int> number;
+  std::vector<int> number, of_dof; // of unknowns, and of displacements alone
   int n_free = 0;
-  for (std::size_t i = 0; i < d.constraints.is_constrained.size(); ++i) {
-    number.push_back(d.constraints.is_constrained[i] ? -1 : n_free);
-    if (d.constraints.is_constrained[i]) continue;
+  const std::size_t n = cases::index(d.n_per_node());
+  for (std::size_t i = 0; i < n * d.nodes.point.size(); ++i) {
+    const bool is_held = d.is_held(i), is_displacement = i % n < 3;
+    number.push_back(is_held ? -1 : n_free);
+    if (is_displacement) of_dof.push_back(number.back());
+    if (is_held) continue;
     ++n_free;
-    const int node = d.nodes.mesh_node[i / 3];
-    const bool is_of_body = node >= 0 && cases::index(node) < scene.mesh.nodes.size();
-    result.mesh_dof.push_back(is_of_body ? 3 * node + static_cast<int>(i % 3) : -1);
+    const int node = d.nodes.mesh_node[i / n];
+    const bool is_of_body = is_displacement && node >= 0 && cases::index(node) < scene.mesh.nodes.size();
+    result.mesh_dof.push_back(is_of_body ? 3 * node + static_cast<int>(i % n) : -1);
   }
   const cases::Scene refined = cases::refine(scene, scene.definition.fem.refine);
   result.stiffness = on_free_dofs(rest_stiffness(d, body.formulations), number, n_free);
-  result.mass = on_free_dofs(make_inertia(refined, d, body.formulations).mass, number, n_free);
+  result.mass = on_free_dofs(make_inertia(refined, d, body.formulations).mass, of_dof, n_free);
   return result;
 }
 

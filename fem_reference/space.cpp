@@ -71,7 +71,8 @@ dealii::Quadrature<2> make_quadrature_of_faces(const ElementType& type) {
 
 Space::Space(const cases::Scene& scene, const ElementType& type, MPI_Comm communicator)
     : shape(type.shape), mesh(make_mesh(type, communicator)), mapping(make_mapping(type)),
-      node_element(make_element(type)), element(*node_element, 3), dofs(*mesh),
+      node_element(make_element(type)),
+      element(*node_element, static_cast<unsigned>(type.n_unknowns_per_node())), dofs(*mesh),
       quadrature(make_quadrature(type)), quadrature_of_faces(make_quadrature_of_faces(type)) {
   std::vector<dealii::Point<3>> vertices;
   for (const Eigen::Vector3d& node : scene.mesh.nodes) vertices.emplace_back(node.x(), node.y(), node.z());

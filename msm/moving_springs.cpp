@@ -13,13 +13,6 @@ namespace springproof::msm {
 
 namespace {
 
-bool is_damped(const cases::Scene& scene) {
-  const auto& regions = scene.definition.region_materials;
-  return scene.definition.material_dynamics.stiffness_damping > 0 ||
-         std::any_of(regions.begin(), regions.end(),
-                     [](const auto& region) { return region.dynamics.stiffness_damping > 0; });
-}
-
 bool is_consistent(const cases::Scene& scene) {
   return scene.definition.msm.mass == cases::PointMass::consistent;
 }
@@ -72,7 +65,7 @@ Inertia make_inertia(const cases::Scene& scene, Lattice damping) {
 }
 
 SpringBody damping_springs(const cases::Scene& scene, const SpringBody& springs) {
-  if (!is_damped(scene)) return {};
+  if (!cases::has_stiffness_damping(scene.definition)) return {};
   return scaled(springs, scene.mesh.cells.size(),
                 [&](std::size_t cell) { return cases::dynamics_of(scene, cell).stiffness_damping; });
 }

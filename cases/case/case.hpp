@@ -71,6 +71,14 @@ void serialize(Archive& archive, Case& definition) {
   if constexpr (has_places<Archive>) archive(file);
 }
 
+/// Whether the body's own material, or that of a region, damps by its stiffness.
+inline bool has_stiffness_damping(const Case& definition) {
+  bool has = definition.material_dynamics.stiffness_damping > 0;
+  for (const RegionMaterial& region : definition.region_materials)
+    has = has || region.dynamics.stiffness_damping > 0;
+  return has;
+}
+
 /// The body's own material, then those of its regions.
 inline std::vector<Material> materials_of(const Case& definition) {
   std::vector<Material> materials{definition.material};

@@ -14,15 +14,16 @@ using E = Element;
 
 /// The order of an element with one constant pressure is that of its pressure's error squared. The first of a
 /// shape are the defaults.
-constexpr std::array<ElementFacts, 9> table{{{E::q1_bbar, false, 1, true, 2},
-                                             {E::q1, false, 1, false, 2},
-                                             {E::q1_p0, false, 1, true, 2},
-                                             {E::q1_wilson, false, 1, false, 2},
-                                             {E::q2, false, 2, false, 4},
-                                             {E::q2_p1, false, 2, true, 4},
-                                             {E::p2, true, 2, false, 4},
-                                             {E::p1, true, 1, false, 2},
-                                             {E::p2_p0, true, 2, true, 2}}};
+constexpr std::array<ElementFacts, 10> table{{{E::q1_bbar, false, 1, true, 2},
+                                              {E::q1, false, 1, false, 2},
+                                              {E::q1_p0, false, 1, true, 2},
+                                              {E::q1_wilson, false, 1, false, 2},
+                                              {E::q2, false, 2, false, 4},
+                                              {E::q2_p1, false, 2, true, 4},
+                                              {E::p2, true, 2, false, 4},
+                                              {E::p1, true, 1, false, 2},
+                                              {E::p2_p0, true, 2, true, 2},
+                                              {E::p2_p1, true, 2, true, 4, true}}};
 
 /// Poisson's ratio from which tetrahedra of degree 2 have a pressure by default.
 constexpr double nearly_incompressible = 0.49;
@@ -57,6 +58,12 @@ Element default_element(Formulation formulation, const std::vector<Material>& ma
 
 void settle_element(Case& definition, bool is_tetrahedron) {
   Fem& fem = definition.fem;
+  if (facts_of(fem.element).is_mixed && has_stiffness_damping(definition))
+    refuse(
+        fem.where,
+        "element is \"{}\", must be \"{}\" or one without a pressure beside stiffness_damping: dampers are "
+        "of single cells, and its pressure is of the whole body",
+        name_of(fem.element), name_of(Element::p2_p0));
   if (facts_of(fem.element).is_tetrahedron == is_tetrahedron) return;
   if (fem.has_auto_element) {
     fem.element = default_element(fem.formulation, materials_of(definition), is_tetrahedron);

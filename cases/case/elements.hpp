@@ -7,10 +7,11 @@ namespace springproof::cases {
 
 struct ElementFacts {
   Element element;
-  bool is_tetrahedron; ///< else a hexahedron
-  int degree;          ///< the displacement's
-  bool has_pressure;   ///< averages the volume of a cell or has its pressure as an unknown
-  int order;           ///< the highest in which displacements of points converge in h
+  bool is_tetrahedron;   ///< else a hexahedron
+  int degree;            ///< the displacement's
+  bool has_pressure;     ///< averages the volume of a cell or has its pressure as an unknown
+  int order;             ///< the highest in which displacements of points converge in h
+  bool is_mixed = false; ///< its pressure is a field of the whole body, which no cell can condense
 };
 
 const ElementFacts& facts_of(Element element);
@@ -25,7 +26,7 @@ std::vector<Element> elements_of(Formulation formulation, bool is_tetrahedron);
 Element default_element(Formulation formulation, const std::vector<Material>& materials, bool is_tetrahedron);
 
 /// Gives a case that names no element the default of its mesh's shape.
-/// @throws InputError if it names an element of the other shape
+/// @throws InputError if it names an element of the other shape, or one that its dampers do not go with
 void settle_element(Case& definition, bool is_tetrahedron);
 
 /// Whether elements without a pressure lock so badly with a material that they are refused.

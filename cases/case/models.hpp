@@ -14,7 +14,7 @@
 namespace springproof::cases {
 
 SPRINGPROOF_ENUMERATION(Formulation, small_strain, saint_venant_kirchhoff, log_strain, hyperelastic)
-SPRINGPROOF_ENUMERATION(Element, q1, q1_bbar, q1_p0, q1_wilson, q2, q2_p1, p1, p2, p2_p0)
+SPRINGPROOF_ENUMERATION(Element, q1, q1_bbar, q1_p0, q1_wilson, q2, q2_p1, p1, p2, p2_p0, p2_p1)
 
 /// Properties that a converged side must not have, unless its case accepts them.
 SPRINGPROOF_ENUMERATION(Doubt,

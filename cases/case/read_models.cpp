@@ -46,9 +46,9 @@ void read_formulation(Table& table, const Material& material, Fem& fem) {
 /// The elements required by the material, when this one is not among them; otherwise empty.
 std::string element_needed(Element element, const Material& material) {
   if (!needs_pressure(material) || facts_of(element).has_pressure) return "";
-  return "\"q1_p0\" | \"q1_bbar\" | \"q2_p1\", or \"p2_p0\" on tetrahedra, with an ogden material that has "
-         "no bulk_modulus: it is nearly incompressible, and a displacement element without averaged volume "
-         "locks";
+  return "\"q1_p0\" | \"q1_bbar\" | \"q2_p1\", or \"p2_p0\" | \"p2_p1\" on tetrahedra, with an ogden "
+         "material that has no bulk_modulus: it is nearly incompressible, and a displacement element without "
+         "averaged volume locks";
 }
 
 /// Elements of both shapes: which of them the body has is known with its mesh.

@@ -38,7 +38,7 @@ function typeset(text) {
   return parts.concat(text.slice(from)).filter((part) => part !== "");
 }
 const formulations = { log_strain: "logarithmic strain", small_strain: "small strain", q1_bbar: "Q1 B-bar", q1_p0: "Q1/P0",
-  q1_wilson: "Q1 Wilson", q2_p1: "Q2/P1", q1: "Q1", q2: "Q2", p1: "P1", p2: "P2", p2_p0: "P2/P0", saint_venant_kirchhoff: "St. Venant–Kirchhoff" };
+  q1_wilson: "Q1 Wilson", q2_p1: "Q2/P1", q1: "Q1", q2: "Q2", p1: "P1", p2: "P2", p2_p0: "P2/P0", p2_p1: "P2/P1", saint_venant_kirchhoff: "St. Venant–Kirchhoff" };
 // What solvers say, in fewer words.
 const solver_words = (text) => text.replace(/(springs: )?mass-spring equilibrium: /g, "springs: ")
   .replace(/no equilibrium was found beyond this load \(reached: ([.\d]+) of the load\)/g,

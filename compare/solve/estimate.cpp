@@ -84,6 +84,13 @@ double refined_nodes(const BodySize& body, int n) {
   return inner * std::pow(8, n) + (body.n_nodes - inner) * std::pow(4, n);
 }
 
+/// Displacements of an element's nodes, and the pressures of its vertices if it has such.
+double element_unknowns(const BodySize& body) {
+  const cases::Fem& fem = body.outline.definition.fem;
+  const double pressures = cases::facts_of(fem.element).is_mixed ? refined_nodes(body, fem.refine) : 0;
+  return 3 * refined_nodes(body, fem_reference::n_halvings(fem)) + pressures;
+}
+
 /// Nodes along the axes of a body's grid after n halvings.
 Eigen::Array3d nodes_along(const BodySize& body, int n) {
   const std::array<int, 3>& cells = body.outline.mesh.grid->cells;
@@ -180,11 +187,11 @@ std::optional<BodySize> size_of(const cases::Case& definition) try {
 Estimate estimate_fem(const BodySize& body) {
   const cases::Fem& fem = body.outline.definition.fem;
   const int halvings = fem_reference::n_halvings(fem);
-  const double unknowns = 3 * refined_nodes(body, halvings);
+  const double unknowns = element_unknowns(body);
   const auto backend =
       fem_reference::choose_backend(body.outline, fem_reference::n_element_nodes(fem, body.n_nodes));
   const bool is_on_grid = backend == fem_reference::Backend::grid;
-  const bool is_factorised = !is_on_grid && fem_reference::takes_factorisation(unknowns / 3);
+  const bool is_factorised = !is_on_grid && fem_reference::takes_factorisation(unknowns / 3, fem);
   const double n_entries = is_on_grid ? element_entries(nodes_along(body, halvings)) : unknowns;
   Estimate estimate;
   if (is_on_grid)
@@ -193,6 +200,8 @@ Estimate estimate_fem(const BodySize& body) {
     estimate = factorised("finite elements (factorised)", unknowns, finite_elements);
   else
     estimate = linear("finite elements (assembled)", unknowns, n_entries, assembled(fem.element));
+  if (cases::facts_of(fem.element).is_mixed)
+    estimate.remedy = "take p2_p0, which large bodies do not factorise, or " + estimate.remedy;
   if (body.outline.definition.dynamics)
     estimate.megabytes += 1e-6 * n_entries *
                           (!is_on_grid                                ? assembled_in_motion
@@ -223,9 +232,8 @@ Estimate estimate_free_springs(const BodySize& body) {
 }
 
 std::vector<Estimate> estimate_vibrations(const BodySize& body) {
-  const int halvings = fem_reference::n_halvings(body.outline.definition.fem);
   std::vector<Estimate> models{
-      factorised("finite elements (factorised)", 3 * refined_nodes(body, halvings), finite_elements),
+      factorised("finite elements (factorised)", element_unknowns(body), finite_elements),
       estimate_free_springs(body)};
   for (Estimate& model : models) model.is_on_first_rank = true;
   return models;

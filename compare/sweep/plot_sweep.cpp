@@ -118,6 +118,7 @@ int marker_of(cases::Element element) {
   case cases::Element::q2_p1:
   case cases::Element::p2:
   case cases::Element::p2_p0:
+  case cases::Element::p2_p1:
     break;
   }
   return 12;

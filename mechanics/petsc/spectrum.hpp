@@ -25,7 +25,8 @@ Spectrum lowest_spectrum(Eigen::SparseMatrix<double> matrix, int n_pairs);
 
 /// The lowest eigenpairs of K x = lambda M x, scaled to x^T M x = 1. As lowest_spectrum() otherwise;
 /// the eigenvalue of a free body's rigid modes is 0.
-/// @param stiffness  positive semidefinite    @param mass  positive definite; both symmetric, both triangles
+/// @param stiffness  positive semidefinite, but where the mass has no rows    @param mass  positive
+/// semidefinite; both symmetric, both triangles
 Spectrum lowest_vibrations(Eigen::SparseMatrix<double> stiffness, Eigen::SparseMatrix<double> mass,
                            int n_pairs);
 

@@ -105,7 +105,8 @@ TEST_CASE("the nearly incompressible membrane locks with q1 and p1, and with no 
     Element element;
     double least, most; // relative to the converged deflection
   } rows[] = {{Element::q1, 0.0, 0.6},      {Element::q1_bbar, 0.95, 1.02}, {Element::q1_p0, 0.95, 1.02},
-              {Element::q2_p1, 0.97, 1.02}, {Element::p1, 0.0, 0.6},        {Element::p2_p0, 0.95, 1.02}};
+              {Element::q2_p1, 0.97, 1.02}, {Element::p1, 0.0, 0.6},        {Element::p2_p0, 0.95, 1.02},
+              {Element::p2_p1, 0.95, 1.02}};
   for (const auto& row : rows) {
     const double computed = tip_deflection(8, bulk_modulus, row.element) / converged;
     CAPTURE(cases::name_of(row.element), computed, converged);

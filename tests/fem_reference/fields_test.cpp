@@ -125,7 +125,7 @@ TEST_CASE("the reaction of a clamped face is the applied load, on every backend,
   const Vector3d value(0.004, -0.001, 0.003);
   for (const auto backend : {Backend::assembled, Backend::grid})
     for (const auto element : {Element::q1, Element::q1_bbar, Element::q1_wilson, Element::q2, Element::q2_p1,
-                               Element::p1, Element::p2_p0})
+                               Element::p1, Element::p2_p0, Element::p2_p1})
       for (const int refine : {0, 1}) {
         const cases::ElementFacts& facts = cases::facts_of(element);
         if (backend == Backend::grid && (element == Element::q2_p1 || facts.is_tetrahedron)) continue;

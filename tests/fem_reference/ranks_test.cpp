@@ -33,7 +33,9 @@ TEST_CASE("two ranks and one find the same displacement and cell volumes", "[.][
                                  Combination{Formulation::hyperelastic, Element::q2_p1, 2},
                                  Combination{Formulation::small_strain, Element::p1, 4},
                                  Combination{Formulation::log_strain, Element::p2, 3},
-                                 Combination{Formulation::hyperelastic, Element::p2_p0, 2});
+                                 Combination{Formulation::hyperelastic, Element::p2_p0, 2},
+                                 Combination{Formulation::log_strain, Element::p2_p1, 2},
+                                 Combination{Formulation::hyperelastic, Element::p2_p1, 2});
   cases::Material material = scenes::thesis_elastic();
   if (c.formulation == Formulation::hyperelastic) material = scenes::thesis_ogden();
   const auto scene = tetrahedra::make_scene(scenes::cube(scenes::Test::torsion, scenes::LoadSet::small,

@@ -11,9 +11,9 @@ using namespace springproof;
 namespace scenes {
 
 constexpr cases::Element all_elements[] = {
-    cases::Element::q1,        cases::Element::q1_bbar, cases::Element::q1_p0,
-    cases::Element::q1_wilson, cases::Element::q2,      cases::Element::q2_p1,
-    cases::Element::p1,        cases::Element::p2,      cases::Element::p2_p0};
+    cases::Element::q1,    cases::Element::q1_bbar, cases::Element::q1_p0, cases::Element::q1_wilson,
+    cases::Element::q2,    cases::Element::q2_p1,   cases::Element::p1,    cases::Element::p2,
+    cases::Element::p2_p0, cases::Element::p2_p1};
 
 inline cases::Load traction(const std::string& where, const Eigen::Vector3d& value) {
   return {{where}, cases::loads::Traction{value}};

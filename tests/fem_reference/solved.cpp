@@ -3,6 +3,8 @@
 #include "fem_reference/model.hpp"
 #include "tests/support/largest.hpp"
 
+#include <Eigen/Cholesky>
+
 using namespace springproof;
 
 using namespace fem_reference;
@@ -31,6 +33,14 @@ Discretisation& prescribe(const Prescribed& prescribed, Discretisation& d) {
 }
 
 } // namespace
+
+Eigen::MatrixXd condensed_tangent(const CellResult& cell) {
+  const Eigen::MatrixXd all = cell.tangent;
+  const Eigen::Index n = cell.internal_slope.cols(), n_vertices = all.cols() - n;
+  return all.topLeftCorner(n, n) -
+         all.topRightCorner(n, n_vertices) *
+             all.bottomRightCorner(n_vertices, n_vertices).ldlt().solve(all.bottomLeftCorner(n_vertices, n));
+}
 
 Solved::Solved(const cases::Scene& scene, const Prescribed& prescribed)
     : formulation(make_formulation(scene.definition.fem, scene.definition.material)),

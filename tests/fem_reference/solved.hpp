@@ -4,6 +4,9 @@
 
 using namespace springproof;
 
+/// The tangent of a body of one cell, its pressures eliminated, those of its vertices too.
+Eigen::MatrixXd condensed_tangent(const fem_reference::CellResult& cell);
+
 /// What verification needs beyond a case. None: zero.
 struct Prescribed {
   using Field = std::function<Eigen::Vector3d(const Eigen::Vector3d& rest_point)>;

@@ -32,8 +32,10 @@ TEST_CASE(
   const TemporaryFolder folder;
   const std::string file = block_in(folder);
   check_refused("design --case " + file, "springproof design CASE");
-  check_refused("run --set fem.element=\"q1\" " + file, "must be \"p2\" | \"p1\" | \"p2_p0\"");
+  check_refused("run --set fem.element=\"q1\" " + file, "must be \"p2\" | \"p1\" | \"p2_p0\" | \"p2_p1\"");
   CHECK_THAT(printed_by("eigen --set material.density=1000 " + file), !Catch::Contains("nan"));
+  CHECK_THAT(printed_by("eigen --set material.density=1000 --set fem.element=p2_p1 " + file),
+             !Catch::Contains("nan"));
   CHECK_THAT(printed_by("run " + file), !Catch::Contains("nan"));
   const auto document = document_of("run --json " + file);
   for (const char* side : {"fem", "msm"}) {

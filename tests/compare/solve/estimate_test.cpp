@@ -67,6 +67,11 @@ TEST_CASE("estimates name the solver that the model will take, and grow with the
   CHECK_THAT(compare::estimate_fem(body(definition)).model, Contains("factorised"));
   definition.fem.refine = 2;
   CHECK_THAT(compare::estimate_fem(body(definition)).model, Contains("assembled"));
+  compare::BodySize tetrahedra = body(definition);
+  tetrahedra.outline.mesh.grid.reset();
+  tetrahedra.outline.definition.fem.element = cases::Element::p2_p1; // an indefinite tangent, however large
+  CHECK_THAT(compare::estimate_fem(tetrahedra).model, Contains("factorised"));
+  CHECK_THAT(compare::estimate_fem(tetrahedra).remedy, Contains("p2_p0"));
   std::map<std::string, Estimate> before; // by solver: from some size on a grid's takes over, and takes less
   for (const int n : {2, 6, 7, 8, 12, 30, 100})
     for (const Estimate& now :
