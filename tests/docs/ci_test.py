@@ -65,6 +65,8 @@ def check(name, parse):
         assert [done.returncode for done in outcomes(folder, variables, lines[:2])] == [0, 1], name
         (folder / variables["SPRINGPROOF_DEB"]).write_text("")
         done = outcomes(folder, variables, lines)
+        if "cannot confine a program" in " ".join((done[-1].stdout + done[-1].stderr).split()):
+            sys.exit("clients cannot be confined where the system refuses namespaces: the test is skipped")
         assert [one.returncode for one in done] == [0, 0, 0], (name, done)
         assert "all gates met: requirement 2 of 2" in done[-1].stdout, done[-1]
         schema = SOURCE / "tests/compare/gates/junit.xsd"
