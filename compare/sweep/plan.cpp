@@ -106,8 +106,10 @@ double total(const std::vector<double>& seconds) {
 std::vector<std::array<int, 3>> levels_of(const cases::Case& definition, Extent extent) {
   const auto* box = std::get_if<cases::Box>(&definition.body);
   if (!box)
-    throw cases::InputError(definition.file +
-                            ": body.shape: a sweep refines the body, which must be \"box\"");
+    throw cases::InputError(
+        definition.file +
+        ": body.shape: a sweep divides the body anew, which must be \"box\"; `run --converge` "
+        "refines any mesh, and `run --designs all` ranks springs on it");
   std::array<int, 3> cells = box->cells;
   if (std::all_of(cells.begin(), cells.end(), [](int n) { return n % 2 == 0; }))
     for (int& n : cells) n /= 2;
