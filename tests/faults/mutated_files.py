@@ -3,7 +3,7 @@
 usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
 
 Kinds: case, dynamic, msh, tetrahedra, tetrahedra22, tetrahedra_vtu, tetrahedra_vtk, stl, obj, ply, skin, nifti, vtu, cells, vtk, vtp,
-displacements, network, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the program may have more, in
+displacements, motion, pvd, network, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the program may have more, in
 the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and without a word of a sanitizer's; a damaged kept result ends in
 the numbers of an undisturbed run. What offends is left in the folder that is named. The damage is the same in every run. Only Python's
 standard library is used.
@@ -385,6 +385,34 @@ class Vtp(Displacements):
                 f"<Points>\n{array}</Points>\n<PointData>\n{array}</PointData>\n</Piece>\n</PolyData>\n</VTKFile>\n").encode()
 
 
+class Motion(Displacements):
+    """A motion as a .csv of times."""
+    name = "motion.csv"
+
+    @property
+    def whole(self):
+        rows = [f"{t},{i},{j},{k},0,{t * k},0" for t in (0, 0.01, 0.02) for k in range(3) for j in range(3) for i in range(3)]
+        return "\n".join(["time,x,y,z,ux,uy,uz", *rows, ""]).encode()
+
+    def case(self):
+        path = super().case()
+        text = path.read_text().replace("[material]", "[material]\ndensity = 1000", 1)
+        path.write_text(text + '[dynamics]\nscheme = "implicit_euler"\nstep = 0.01\nend = 0.02\n')
+        return path
+
+
+class Pvd(Motion):
+    """The list of a motion's files."""
+    name = "motion.pvd"
+
+    @property
+    def whole(self):
+        for step in range(3):
+            (self.folder / f"{step}.csv").write_bytes(super(Motion, self).whole)
+        files = "".join(f'    <DataSet timestep="{step / 100}" part="0" file="{step}.csv"/>\n' for step in range(3))
+        return f'<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0">\n  <Collection>\n{files}  </Collection>\n</VTKFile>\n'.encode()
+
+
 class Network(Kind):
     """Springs between all of the nodes of the box that are neighbours, or a diagonal apart."""
 
@@ -429,7 +457,7 @@ class Kept(Kind):
 
 KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "tetrahedra": Tetrahedra, "tetrahedra22": Tetrahedra22,
          "tetrahedra_vtu": TetrahedraVtu, "tetrahedra_vtk": TetrahedraVtk, "stl": Stl, "obj": Obj, "ply": Ply, "skin": Skin, "nifti": Nifti, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
-         "displacements": Displacements, "network": Network, "curve": Curve, "kept": Kept}
+         "displacements": Displacements, "motion": Motion, "pvd": Pvd, "network": Network, "curve": Curve, "kept": Kept}
 
 
 def try_out(kind, count, keep):
