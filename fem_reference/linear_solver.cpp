@@ -6,6 +6,11 @@ namespace springproof::fem_reference {
 
 namespace {
 
+/// Makes MUMPS count all negative pivots: those of the root that ranks share are left out otherwise.
+void count_all_pivots(Mat factor) {
+  check(MatMumpsSetIcntl(factor, 13, 1)); // the root on one rank
+}
+
 int negative_pivots(Mat factor) {
   return static_cast<int>(get<PetscInt>(MatMumpsGetInfog, factor, 12)); // INFOG(12): over all ranks
 }
@@ -16,6 +21,7 @@ std::optional<int> negative_pivots_of_symmetric_part(Mat tangent) {
   check(MatAXPY(symmetric, 1, tangent, UNKNOWN_NONZERO_PATTERN)); // twice the symmetric part: the same signs
   check(MatSetOption(symmetric, MAT_SYMMETRIC, PETSC_TRUE));
   const Matrix factor(get<Mat>(MatGetFactor, symmetric, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY));
+  count_all_pivots(factor.get());
   const auto info = get<MatFactorInfo>(MatFactorInfoInitialize);
   check(MatCholeskyFactorSymbolic(factor.get(), symmetric, nullptr, &info));
   check(MatCholeskyFactorNumeric(factor.get(), symmetric, &info));
@@ -45,6 +51,12 @@ LinearSolver::LinearSolver(const Discretisation& d, Mat tangent, TangentSymmetry
     check(KSPSetType(solver, KSPPREONLY));
     check(PCSetType(preconditioner, symmetric ? PCCHOLESKY : PCLU));
     check(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS));
+    if (has_pressures) {
+      check(PCFactorSetUpMatSolverType(preconditioner));
+      const Mat factor = get<Mat>(PCFactorGetMatrix, preconditioner);
+      count_all_pivots(factor);
+      check(MatMumpsSetIcntl(factor, 14, 100)); // percent of room for pivots that are put off
+    }
   } else {
     // Pressures are condensed, so the tangent stays definite and multigrid applies to it even when nearly
     // incompressible: at a bulk modulus of 1000 shear moduli some 145 iterations a solve, with 3630 unknowns

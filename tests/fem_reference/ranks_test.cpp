@@ -48,6 +48,7 @@ TEST_CASE("two ranks and one find the same displacement and cell volumes", "[.][
   CHECK(largest_difference(alone, together) <= 1e-10);        // mm, as asked; displacements are of order 1 mm
   CHECK(largest_volume_difference(alone, together) <= 1e-10); // mm³; cells are of the order 1 to 100 mm³
   CHECK(alone.unknowns == together.unknowns);
+  CHECK(alone.negative_eigenvalues == together.negative_eigenvalues);
 }
 
 namespace {
