@@ -1,6 +1,7 @@
 #include "compare/app/commands.hpp"
 
 #include "cases/mesh/vtk_functions.hpp"
+#include "compare/client/judge.hpp"
 #include "compare/export/export_springs.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
@@ -18,6 +19,18 @@ struct ExportOptions {
   std::vector<std::string> settings;
 };
 
+/// Errors of a case's springs of another design, from its finite elements on the same mesh.
+std::string error_of(const ExportOptions& options, const std::string& design) {
+  std::vector<std::string> settings = options.settings;
+  settings.push_back("msm.design=" + design);
+  const cases::Scene scene = read_questions({options.file}, settings, {}).front().scene;
+  if (scene.definition.measures.empty()) return "";
+  const JudgedRow springs = Judge(scene, 0).own({}).rows.back();
+  if (!springs.worst) return fmt::format(", which do not answer this case: {}", springs.failure);
+  return fmt::format(", which err by {:.3g} % on this case (its worst measure, {})", *springs.worst,
+                     one_line(springs.worst_at));
+}
+
 int export_case(const ExportOptions& options) {
   Request request;
   request.only = cases::Side::msm;
@@ -27,7 +40,8 @@ int export_case(const ExportOptions& options) {
   const msm::Problem problem = exported_problem(scene);
   const std::optional<ExportedMotion> motion = exported_motion(scene);
   if (target == ExportTarget::vtu) cases::check_has_vtk();
-  check_expressible(target, name, problem, motion); // before there is a folder
+  check_expressible(target, name, problem, motion, // before there is a folder
+                    [&](const std::string& design) { return error_of(options, design); });
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
   const std::vector<std::string> said =

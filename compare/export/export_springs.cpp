@@ -284,18 +284,20 @@ ExportedBody exported_body(const cases::Scene& scene) {
 }
 
 void check_expressible(ExportTarget target, const std::string& name, const msm::Problem& problem,
-                       const std::optional<ExportedMotion>& motion) {
-  const auto refuse = [&](const std::vector<std::string>& missing, const std::string& advice) {
-    if (!missing.empty())
-      throw cases::InputError(fmt::format("export: --to {} cannot express {} of the case '{}'{}",
-                                          cases::name_of(target), fmt::join(missing, ", "), one_line(name),
-                                          advice));
+                       const std::optional<ExportedMotion>& motion, const ErrorOfDesign& error_of) {
+  const auto text = [&](const std::vector<std::string>& missing) {
+    return fmt::format("export: --to {} cannot express {} of the case '{}'", cases::name_of(target),
+                       fmt::join(missing, ", "), one_line(name));
   };
-  const bool has_tetrahedra = problem.mesh.shape == cases::CellShape::tetrahedron;
-  refuse(inexpressible(target, problem),
-         fmt::format("; --to csv can, and --set msm.design={} makes springs alone",
-                     has_tetrahedra ? "van_gelder" : "moduli"));
-  if (target == ExportTarget::sofa && motion) refuse(inexpressible_in_sofa(*motion), "");
+  if (const auto missing = inexpressible(target, problem); !missing.empty()) {
+    const std::string design = problem.mesh.shape == cases::CellShape::tetrahedron ? "van_gelder" : "moduli";
+    throw cases::InputError(fmt::format("{}; --to sofa and csv can, and --set msm.design={} makes springs "
+                                        "alone{}",
+                                        text(missing), design, error_of ? error_of(design) : ""));
+  }
+  if (target != ExportTarget::sofa || !motion) return;
+  if (const auto missing = inexpressible_in_sofa(*motion); !missing.empty())
+    throw cases::InputError(text(missing));
 }
 
 std::vector<std::string> export_springs(const std::string& folder, ExportTarget target,

@@ -35,11 +35,15 @@ struct ExportedBody {
 };
 ExportedBody exported_body(const cases::Scene& scene);
 
-/// @param name  the case's name
+/// What springs of another design err by, in words for a refusal that suggests it: ", which err by 3 %".
+using ErrorOfDesign = std::function<std::string(const std::string& design)>;
+
+/// @param name      the case's name
+/// @param error_of  asked of the design that a refusal suggests, which may take a solve
 /// @throws InputError if the target cannot express the springs or their motion, listing all that it cannot;
 /// targets for files take any motion, and say what they leave out
 void check_expressible(ExportTarget target, const std::string& name, const msm::Problem& problem,
-                       const std::optional<ExportedMotion>& motion = {});
+                       const std::optional<ExportedMotion>& motion = {}, const ErrorOfDesign& error_of = {});
 
 /// Writes the files of a target, each whole or not at all:
 ///   csv   springs.csv as design = "network" reads it; nodes.csv, volume_terms.csv, tetrahedra.csv; the skin
