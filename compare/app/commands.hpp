@@ -1,5 +1,6 @@
 #pragma once
 
+#include "compare/client/scene_message.hpp"
 #include "compare/solve/solve_jobs.hpp"
 
 #include <CLI/CLI.hpp>
@@ -84,6 +85,9 @@ struct DisplacementOptions {
 };
 /// @return --msm-displacements and --client
 std::array<CLI::Option*, 2> add_displacement_options(CLI::App& command, DisplacementOptions& options);
+
+/// --step and --iterations, of the commands that ask clients.
+std::array<CLI::Option*, 2> add_step_options(CLI::App& command, ClientBudget& budget);
 
 /// --replay, of the commands that solve both models of what was pulled.
 CLI::Option* add_replay_option(CLI::App& command, std::string& recording);

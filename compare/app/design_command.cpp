@@ -1,6 +1,8 @@
+#include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "compare/app/commands.hpp"
+#include "compare/client/for_engine.hpp"
 #include "compare/cube/write_design.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
@@ -21,6 +23,9 @@ struct CommandOptions {
   DesignOptions design;
   std::string body;                 ///< a case file; empty: stiffnesses of a cell
   std::vector<std::string> designs; ///< designs of its springs; empty: its own
+  std::string engine, client;       ///< numbers for an engine; the client that runs it, NAME=COMMAND
+  double density = 1000;            ///< kg/m³
+  ClientBudget budget;
   bool compare = false, pareto = false, measure = false, json = false;
   std::string out;
   bool has_many() const { return compare || pareto; }
@@ -113,9 +118,24 @@ int run_on_mesh(const CommandOptions& options) {
              : 1;
 }
 
+/// The numbers that an engine takes, and the error to expect of it.
+int run_for_engine(const CommandOptions& options, const msm::DesignRequest& request) {
+  if (n_mpi_ranks() > 1) throw cases::InputError("design: --for runs on one rank; start it without mpirun");
+  EngineRequest engine{*cases::value_of<Engine>(options.engine), request, !options.design.method.empty(),
+                       options.density, options.budget};
+  if (!options.client.empty()) engine.client = client_of(options.client);
+  const EngineDesign found = design_for_engine(engine);
+  if (options.json)
+    std::cout << json_text(engine_design_to_json(found));
+  else
+    write_engine_design_text(std::cout, found);
+  return found.has_failed() ? 1 : 0;
+}
+
 int run(const CommandOptions& options) {
   if (!options.body.empty()) return run_on_mesh(options);
   const msm::DesignRequest request = request_from(options.design);
+  if (!options.engine.empty()) return run_for_engine(options, request);
   claim_folder(options.out);
   std::vector<DesignAttempt> attempts = options.pareto    ? attempt_springs(request)
                                         : options.compare ? attempt_all(request)
@@ -152,7 +172,22 @@ void add_design_command(CLI::App& program, Action& chosen) {
       ->excludes("--compare");
   command->add_flag("--measure", options->measure,
                     "the errors of the thesis's cube with these designs (solves both models)");
-  command->add_option("--out", options->out, "folder for design.json and the method's figures");
+  CLI::Option* engine = command
+                            ->add_option("--for", options->engine,
+                                         "the numbers that an engine takes, and its error on a beam of these "
+                                         "cells, found by running it")
+                            ->check(CLI::IsMember(cases::all_names<Engine>()));
+  for (const char* other : {"--compare", "--pareto", "--measure"})
+    engine->excludes(command->get_option(other));
+  command->add_option("--client", options->client, "NAME=COMMAND that runs the engine, in place of its own")
+      ->needs(engine);
+  command->add_option("--density", options->density, "density of the body, kg/m^3")
+      ->check(number_between(1e-3, 1e6))
+      ->capture_default_str()
+      ->needs(engine);
+  for (CLI::Option* option : add_step_options(*command, options->budget)) option->needs(engine);
+  command->add_option("--out", options->out, "folder for design.json and the method's figures")
+      ->excludes(engine);
   CLI::Option* body = command->add_option(
       "case", options->body, "case file (TOML): what springs can do on its mesh, before a solve");
   for (CLI::Option* option : command->get_options()) // which are of a single cell

@@ -71,12 +71,7 @@ void add_judge_command(CLI::App& program, Action& chosen) {
                    "be repeated")
       ->required();
   ClientBudget& budget = options->budget;
-  command->add_option("--step", budget.step, "step of clients whose body is to come to rest, s")
-      ->check(number_between(1e-7, 1))
-      ->capture_default_str();
-  command->add_option("--iterations", budget.iterations, "iterations a step; 0: each client's default")
-      ->check(CLI::Range(0, 1'000'000))
-      ->capture_default_str();
+  add_step_options(*command, budget);
   command->add_option("--end", budget.model_time, "time within which a body is to come to rest, s")
       ->check(number_between(1e-6, 1e6))
       ->capture_default_str();

@@ -57,6 +57,16 @@ std::array<CLI::Option*, 2> add_displacement_options(CLI::App& command, Displace
   return {file, client};
 }
 
+std::array<CLI::Option*, 2> add_step_options(CLI::App& command, ClientBudget& budget) {
+  return {
+      command.add_option("--step", budget.step, "step of clients whose body is to come to rest, s")
+          ->check(number_between(1e-7, 1))
+          ->capture_default_str(),
+      command.add_option("--iterations", budget.iterations, "iterations a step; 0: each client's default")
+          ->check(CLI::Range(0, 1'000'000))
+          ->capture_default_str()};
+}
+
 CLI::Option* add_replay_option(CLI::App& command, std::string& recording) {
   return command.add_option("--replay", recording,
                             "a recording of interact (NAME_pulls.csv), whose forces act on both models");

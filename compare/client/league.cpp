@@ -37,19 +37,37 @@ std::vector<Settings> settings_of(const LeagueClient& client) {
   return all;
 }
 
-std::string missing(const LeagueClient& client) {
-  for (const std::string& file : client.needs)
-    if (!std::filesystem::exists(file)) return file;
-  return "";
-}
-
 /// Whether a row is nearer to the finite elements; one that rests before one that moves, which has means.
 bool is_better(const JudgedRow& one, const JudgedRow& other) {
   if (one.is_at_rest != other.is_at_rest) return one.is_at_rest;
   return std::abs(*one.worst) < std::abs(*other.worst);
 }
 
-/// The rows of a client in a case: its defaults, and the best of them and of its settings within the budget.
+std::string budget_text(const League& league) {
+  return fmt::format(
+      "Settings are searched for by trying them all; the best is the one with the smallest "
+      "worst error whose step takes at most {:.3g} ms. A body has {:g} s to come to rest, an "
+      "answer {:g} s of wall-clock time. An engine that is given the springs of the row above and "
+      "errs otherwise has not brought them to equilibrium; a smaller error is then one of two that "
+      "cancel.",
+      league.most_milliseconds, league.budget.model_time, league.budget.seconds);
+}
+
+std::string in_cell(const Json& value, const char* format) {
+  if (value.is_null()) return "-";
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number()) return fmt::format(fmt::runtime(format), value.get<double>());
+  return escaped(one_line(value.get<std::string>()), {{'|', "\\|"}, {'<', "&lt;"}});
+}
+
+} // namespace
+
+std::string missing(const LeagueClient& client) {
+  for (const std::string& file : client.needs)
+    if (!std::filesystem::exists(file)) return file;
+  return "";
+}
+
 std::vector<JudgedRow> rows_of(const Judge& judge, const LeagueClient& client, const League& league,
                                const std::function<void(const std::string&)>& tell) {
   const auto ask = [&](const Settings& settings) {
@@ -84,25 +102,6 @@ std::vector<JudgedRow> rows_of(const Judge& judge, const LeagueClient& client, c
   rows.push_back(none);
   return rows;
 }
-
-std::string budget_text(const League& league) {
-  return fmt::format(
-      "Settings are searched for by trying them all; the best is the one with the smallest "
-      "worst error whose step takes at most {:.3g} ms. A body has {:g} s to come to rest, an "
-      "answer {:g} s of wall-clock time. An engine that is given the springs of the row above and "
-      "errs otherwise has not brought them to equilibrium; a smaller error is then one of two that "
-      "cancel.",
-      league.most_milliseconds, league.budget.model_time, league.budget.seconds);
-}
-
-std::string in_cell(const Json& value, const char* format) {
-  if (value.is_null()) return "-";
-  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  if (value.is_number()) return fmt::format(fmt::runtime(format), value.get<double>());
-  return escaped(one_line(value.get<std::string>()), {{'|', "\\|"}, {'<', "&lt;"}});
-}
-
-} // namespace
 
 LeagueTable play(const League& league, const std::function<void(const std::string&)>& tell) {
   LeagueTable table;

@@ -38,6 +38,13 @@ struct LeagueTable {
   std::vector<SkippedClient> skipped;
 };
 
+/// A file or folder that a client needs and that is not there; empty where it has all.
+std::string missing(const LeagueClient& client);
+
+/// The rows of a client in a case: its defaults, and the best of them and of its settings within the budget.
+std::vector<JudgedRow> rows_of(const Judge& judge, const LeagueClient& client, const League& league,
+                               const std::function<void(const std::string&)>& tell);
+
 /// Solves every case once, and asks every client by its defaults and by each of its settings.
 /// @param tell  told what is about to be asked: "beam: Jolt, 15 iterations"
 /// @throws cases::InputError when a case has no measure, or no springs
