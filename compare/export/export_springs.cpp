@@ -187,8 +187,8 @@ std::vector<std::string> write_csv_files(const std::string& folder, const msm::P
   if (!lattice.volume_cells.empty())
     said.push_back(
         fmt::format("volume_tetrahedra.csv: {} tetrahedra in place of the volume terms, for engines "
-                    "that have no other constraints of volume; stiffer, as each keeps its own",
-                    6 * lattice.volume_cells.size()));
+                    "that have no other constraints of volume",
+                    2 * lattice.volume_cells.size()));
   if (!lattice.midlines.empty())
     said.push_back(
         fmt::format("midlines.csv: {} springs between means of four nodes", lattice.midlines.size()));

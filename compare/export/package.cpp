@@ -44,18 +44,17 @@ std::size_t n_other_terms(const msm::Lattice& lattice) {
 }
 
 void write_volume_tetrahedra_csv(const std::string& folder, const msm::Lattice& lattice) {
-  // About the diagonal from vertex 0 to 7; each has a positive volume.
-  constexpr std::array<std::array<std::size_t, 4>, 6> cuts{
-      {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
+  constexpr std::array<std::array<int, 4>, 2> inscribed{{{0, 3, 5, 6}, {1, 2, 7, 4}}};
   write_csv_file(folder + "/volume_tetrahedra.csv", [&](CsvWriter& csv) {
     csv.row("stiffness_MPa", "rest_volume_mm3", "law", "node_0", "node_1", "node_2", "node_3");
     for (const msm::VolumeCell& cell : lattice.volume_cells)
-      for (const auto& cut : cuts) {
-        const std::array<int, 4> nodes{cell.nodes[cut[0]], cell.nodes[cut[1]], cell.nodes[cut[2]],
-                                       cell.nodes[cut[3]]};
-        csv.row(fmt::format("{}", cell.stiffness),
-                fmt::format("{}", msm::volume_of(msm::at_nodes(nodes, lattice.rest))),
-                cell.is_logarithmic ? "logarithmic" : "linear", nodes[0], nodes[1], nodes[2], nodes[3]);
+      for (const auto& vertices : inscribed) {
+        auto nodes = cases::pick(cell.nodes, vertices);
+        double volume = msm::volume_of(msm::at_nodes(nodes, lattice.rest));
+        if (volume < 0) std::swap(nodes[2], nodes[3]), volume = -volume;
+        csv.row(fmt::format("{}", cell.stiffness * cell.rest_volume / (2 * volume)),
+                fmt::format("{}", volume), cell.is_logarithmic ? "logarithmic" : "linear", nodes[0], nodes[1],
+                nodes[2], nodes[3]);
       }
   });
 }

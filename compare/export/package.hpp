@@ -9,7 +9,8 @@ namespace springproof::compare {
 /// How many terms a lattice has beside springs of Hooke's law.
 std::size_t n_other_terms(const msm::Lattice& lattice);
 
-/// Writes the tetrahedra that stand in for volume terms of hexahedra: six of each.
+/// Writes the tetrahedra that stand in for volume terms of hexahedra: the two that are inscribed in each. A
+/// parallelepiped's volume changes by the mean of their parts, to first order.
 void write_volume_tetrahedra_csv(const std::string& folder, const msm::Lattice& lattice);
 
 /// Rows of vertex, node and weight, which is not 0: a vertex is at the weighted sum of its nodes.

@@ -79,15 +79,15 @@ TEST_CASE("an engine's springs have the stiffnesses of a lattice's, by the cells
 
   // Compliances: those of springs are the inverse, that of a volume stores a cell's energy, C²/(2 alpha).
   for (const auto& [engine, name, factor] :
-       {std::tuple{Engine::xpbd, "compliance of V of a tetrahedron, six a cell", 1.},
-        {Engine::jolt, "compliance of 6 V of a tetrahedron, six a cell", 6.}}) {
+       {std::tuple{Engine::xpbd, "compliance of V of an inscribed tetrahedron, two a cell", 1.},
+        {Engine::jolt, "compliance of 6 V of an inscribed tetrahedron, two a cell", 6.}}) {
     request.engine = engine;
     request.client = compare::Client{"none", {"/nowhere"}};
     const EngineDesign inverse = compare::design_for_engine(request);
     CHECK(number_of(inverse, "compliance of an internal diagonal") ==
           is(1 / number_of(design, "stiffness of an internal diagonal")));
-    const double rest = 1e-6 / 6, change = 0.01 * rest; // m³, of a tetrahedron
-    CHECK(std::pow(factor * change, 2) / (2 * number_of(inverse, name)) ==
+    const double rest = 1e-6, change = 0.01 * rest / 3; // m³, of a cell, of a tetrahedron of a third
+    CHECK(2 * std::pow(factor * change, 2) / (2 * number_of(inverse, name)) ==
           is(number_of(design, "k_v of a cell") / 2 * rest * 0.01 * 0.01));
     CHECK(inverse.has_failed());
     CHECK_THAT(text_of(inverse), Catch::Contains("none does not answer: ") && Catch::Contains("/nowhere"));
