@@ -77,7 +77,18 @@ struct Labels {
 };
 SPRINGPROOF_FIELDS(Labels, file, edge, classes, crop, keep, seed, scale)
 
-using Body = std::variant<Box, MeshFile, Voxels, Labels, FilledSurface>;
+/// Nodes and the springs between them, without cells: read_nodes(), read_network().
+struct Network {
+  NamedFile nodes, springs; ///< CSV
+};
+SPRINGPROOF_FIELDS(Network, nodes, springs)
+
+using Body = std::variant<Box, MeshFile, Voxels, Labels, FilledSurface, Network>;
+
+/// Whether a body has volume, faces and a material.
+inline bool has_cells(const Body& body) {
+  return !std::holds_alternative<Network>(body);
+}
 
 /// The class whose cells are rigid, if there is one.
 inline const LabelClass* rigid_class(const Body& body) {

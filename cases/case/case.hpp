@@ -40,6 +40,7 @@ struct Case {
   std::string description;
   std::string file;
   Body body;
+  std::optional<Body> fem_body{}; ///< the finite elements' own, beside a network
   Material material;
   MaterialDynamics material_dynamics;
   std::vector<RegionMaterial> region_materials; ///< a cell in several of them has the last one's
@@ -62,12 +63,12 @@ struct Case {
 
 template<class Archive>
 void serialize(Archive& archive, Case& definition) {
-  auto& [name, description, file, body, material, material_dynamics, region_materials, fixed, symmetry, moved,
-         loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics, surface, landmarks,
-         removed] = definition;
-  archive(name, description, body, material, material_dynamics, region_materials, fixed, symmetry, moved,
-          loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics, surface, landmarks,
-          removed);
+  auto& [name, description, file, body, fem_body, material, material_dynamics, region_materials, fixed,
+         symmetry, moved, loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics,
+         surface, landmarks, removed] = definition;
+  archive(name, description, body, fem_body, material, material_dynamics, region_materials, fixed, symmetry,
+          moved, loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics, surface,
+          landmarks, removed);
   if constexpr (has_places<Archive>) archive(file);
 }
 
@@ -78,6 +79,19 @@ inline bool has_stiffness_damping(const Case& definition) {
     has = has || region.dynamics.stiffness_damping > 0;
   return has;
 }
+
+/// Whether there is a body that finite elements can be made of.
+inline bool has_finite_elements(const Case& definition) {
+  return has_cells(definition.body) || definition.fem_body;
+}
+
+/// Refuses what a network cannot have.
+/// @param what  such as "a sweep"    @param instead  what to do
+/// @throws InputError, at the network's nodes
+void refuse_network(const Case& definition, const std::string& what, const std::string& instead);
+
+/// @throws InputError if there is no body that finite elements can be made of
+void check_finite_elements(const Case& definition);
 
 /// The body's own material, then those of its regions.
 inline std::vector<Material> materials_of(const Case& definition) {

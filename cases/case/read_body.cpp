@@ -215,7 +215,11 @@ double read_scale(Table& table) {
 }
 
 Body read_body(Table& table, const std::string& case_path) {
-  const std::string shape = table.entry("shape").word({"box", "mesh", "voxels", "labels", "surface"});
+  const std::string shape =
+      table.entry("shape").word({"box", "mesh", "voxels", "labels", "surface", "network"});
+  if (shape == "network")
+    return Network{read_file_name(table.entry("nodes"), {".csv"}, "a file of nodes, .csv", case_path),
+                   read_file_name(table.entry("springs"), {".csv"}, "a file of springs, .csv", case_path)};
   if (shape == "box") return read_box(table);
   if (shape == "labels") return read_labels(table, case_path);
   if (shape == "mesh") return read_mesh_file(table, case_path);
@@ -226,6 +230,16 @@ Body read_body(Table& table, const std::string& case_path) {
 }
 
 void read_materials(Table& root, Case& result) {
+  if (!has_finite_elements(result)) {
+    root.know({"region_material"}); // refused with a network's other tables
+    result.material_dynamics = root.optional_section("material", [&](Table& table) {
+      table.refuse_unless(false, {"model", "density"},
+                          "left out: springs of a network have no material, and its masses are a column of "
+                          "body.nodes; [fem.body] has a material");
+      return read_material_dynamics(table, result.dynamics.has_value());
+    });
+    return;
+  }
   result.material = root.section("material", [&](Table& table) {
     Material material = read_material(table);
     result.material_dynamics = read_material_dynamics(table, result.dynamics.has_value());

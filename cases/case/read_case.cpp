@@ -275,6 +275,7 @@ Case read_definition(Table& root, const std::string& path, Purpose purpose = Pur
     result.removed = table.sections("removed", read);
     return read_body(table, path);
   });
+  result.fem_body = read_fem_body(root, result);
   result.dynamics = read_dynamics(root);
   read_materials(root, result);
   read_boundary(root, result);
@@ -282,6 +283,7 @@ Case read_definition(Table& root, const std::string& path, Purpose purpose = Pur
   read_models(root, result);
   check_dynamics(root, result);
   read_measures(root, result);
+  check_network(root, result);
   read_surface(root, result);
   check_accuracy(root, result);
   check_turns(result);

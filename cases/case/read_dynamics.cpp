@@ -113,6 +113,7 @@ void check_sine(const History& history, const Dynamics& dynamics, const std::str
 }
 
 void check_densities(Table& root, const Case& definition) {
+  if (!has_finite_elements(definition)) return; // masses are the nodes' own
   const bool has_gravity = std::any_of(definition.loads.begin(), definition.loads.end(),
                                        [](const Load& load) { return load.on() == loads::On::masses; });
   const bool has_density = definition.material_dynamics.density.has_value();

@@ -95,11 +95,12 @@ Fem read_fem(Table& table, const Case& definition) {
   const Material& material = definition.material;
   Fem fem;
   fem.where = table.where();
+  table.know({"body"}); // read_fem_body()
   read_formulation(table, material, fem);
   read_element(table, material, fem);
   if (const auto refine = table.optional("refine", WholeNumber{"a whole number from 0 to 8", 0, 8})) {
     fem.refine = *refine;
-    check_refined_size(table.entry("refine"), definition.body, fem.refine);
+    check_refined_size(table.entry("refine"), definition.fem_body.value_or(definition.body), fem.refine);
   }
   const auto accuracy = table.optional("accuracy", [](const Entry& entry) {
     return entry.word({"auto", "none"});
@@ -253,14 +254,20 @@ void read_relaxation(Table& table, Msm& msm) {
 
 Msm read_msm(Table& table, const Case& definition) {
   const Material& material = definition.material;
+  const Network* const network = std::get_if<Network>(&definition.body);
   Msm msm;
   msm.where = table.where();
   msm.poissons_ratio =
       table.optional("poissons_ratio", Number{"a number above -1 and below 0.5", is_poissons_ratio});
   const auto design = table.optional("design", read_name<Design>);
-  msm.design = design ? *design
-                      : default_design(materials_of(definition), msm.poissons_ratio,
-                                       has_nodal_forces(definition.loads));
+  if (network && design && *design != Design::network)
+    table.entry("design").refuse("\"network\" or left out: the springs are those of body.springs");
+  table.refuse_unless(!network, {"file", "mass"},
+                      "left out: body.springs has the springs, and body.nodes the masses");
+  msm.design = network  ? Design::network
+               : design ? *design
+                        : default_design(materials_of(definition), msm.poissons_ratio,
+                                         has_nodal_forces(definition.loads));
   for (const std::string& key : keys_of_designs())
     table.refuse_unless(takes(msm.design, key), {key.c_str()},
                         "left out: it belongs to design = " + designs_with(key));
@@ -274,9 +281,10 @@ Msm read_msm(Table& table, const Case& definition) {
       table.optional("beta", Number{"a number above 0, at most 2", [](double b) { return b > 0 && b <= 2; }});
   read_stiffness(table, msm);
   table.know({"file"});
-  if (msm.design == Design::network) {
+  if (network)
+    msm.network = network->springs;
+  else if (msm.design == Design::network)
     msm.network = read_file_name(table.entry("file"), {".csv"}, "a file of springs, .csv", definition.file);
-  }
   msm.volume_stiffness =
       table.optional("volume_stiffness", Number{"a number, 0 or above (MPa)", is_not_negative}).value_or(0);
   msm.has_auto_design =

@@ -12,6 +12,12 @@ namespace springproof::cases {
 /// Reads [body].  @param case_path  the case file's; names of files are relative to it
 Body read_body(Table& table, const std::string& case_path);
 
+/// Reads [fem.body], the finite elements' own beside a network, into a case whose body is read.
+std::optional<Body> read_fem_body(Table& root, const Case& definition);
+
+/// @throws InputError where a case that is read asks a network for faces or cells
+void check_network(Table& root, const Case& definition);
+
 std::vector<std::string> names_of(const std::vector<LabelClass>& classes);
 
 /// Reads `scale`: mm of a unit of a file, 1 where it is left out.

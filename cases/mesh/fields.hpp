@@ -119,7 +119,7 @@ void serialize(Archive& archive, springproof::cases::RuledList<Rule>& list) {
   archive(list.values, list.rule);
 }
 SPRINGPROOF_FIELDS(springproof::cases::TriangleMesh, vertices, triangles)
-SPRINGPROOF_FIELDS(springproof::cases::Mesh, shape, nodes, cells, groups, group_of_cell, grid)
+SPRINGPROOF_FIELDS(springproof::cases::Mesh, shape, nodes, cells, groups, group_of_cell, grid, lines)
 
 } // namespace cereal
 

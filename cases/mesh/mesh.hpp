@@ -151,14 +151,16 @@ struct Grid {
 
 class Sharing;
 
-/// The body's mesh, which both models are made from. All its cells are of one shape.
+/// The body's mesh, which both models are made from. All its cells are of one shape. A network of springs has
+/// no cells, and so no faces and no volume: what is asked of these is refused before anything is solved.
 struct Mesh {
-  CellShape shape = CellShape::hexahedron;
+  CellShape shape = CellShape::hexahedron; ///< without meaning where there are no cells
   RuledList<GridNodes> nodes;              ///< rest positions, mm
   RuledList<GridCells> cells;              ///< in the order of the reference cell's vertices
   std::map<std::string, Selection> groups; ///< physical groups of a mesh file
   std::vector<std::string> group_of_cell; ///< name of its three-dimensional physical group; empty: none named
   std::optional<Grid> grid;               ///< set when the mesh is a grid of hexahedra
+  std::vector<std::array<int, 2>> lines{}; ///< where there are no cells: what is drawn in their place
 };
 
 /// The same cells without the empty layers around them: fields on a grid have numbers for what is empty too.

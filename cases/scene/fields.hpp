@@ -19,9 +19,10 @@ SPRINGPROOF_FIELDS(springproof::cases::Scene::AppliedMass, selection, added)
 SPRINGPROOF_FIELDS(springproof::cases::NetworkSpring, a, b, stiffness, rest_length, exponent)
 template<class Archive>
 void serialize(Archive& archive, springproof::cases::Scene& scene) {
-  auto& [definition, mesh, material_of_cell, constrained, moved, loads, masses, network, surface, remarks] =
-      scene;
-  archive(definition, mesh, material_of_cell, constrained, moved, loads, masses, network, surface);
+  auto& [definition, mesh, material_of_cell, constrained, moved, loads, masses, network, node_masses, of_fem,
+         surface, remarks] = scene;
+  archive(definition, mesh, material_of_cell, constrained, moved, loads, masses, network, node_masses, of_fem,
+          surface);
   if constexpr (springproof::cases::has_places<Archive>) archive(remarks);
 }
 

@@ -111,7 +111,7 @@ double area_within(const Scene& scene, const Region& region) {
   return circle;
 }
 
-constexpr double tonnes_per_kg = 1e-3, tonnes_per_mm3 = 1e-12; ///< the latter of kg/m³
+constexpr double tonnes_per_mm3 = 1e-12; ///< of kg/m³
 constexpr double mm_per_m = 1e3;
 
 /// mm/s²
@@ -138,6 +138,17 @@ std::vector<double> shared_out(const Scene& scene, PointMass shared, const OfVol
   for (std::size_t n = 0; n < shares.size(); ++n) divisor += shares[n] = modelled(static_cast<int>(n));
   for (double& share : shares) share *= total / divisor;
   return shares;
+}
+
+/// Masses of a network's nodes, t; 0 where its file gives none.
+std::vector<double> masses_of_nodes(const Scene& scene) {
+  return scene.node_masses.empty() ? std::vector<double>(scene.mesh.nodes.size(), 0.0) : scene.node_masses;
+}
+
+/// Masses of the body, t, without those that are added.
+std::vector<double> own_masses(const Scene& scene, PointMass shared) {
+  if (!has_cells(scene.definition.body)) return masses_of_nodes(scene);
+  return shared_out(scene, shared, [](const CellDynamics& cell) { return cell.density; });
 }
 
 } // namespace
@@ -290,13 +301,17 @@ std::vector<double> point_masses(const Scene& scene) {
 }
 
 std::vector<double> point_masses(const Scene& scene, PointMass shared) {
-  std::vector<double> masses =
-      shared_out(scene, shared, [](const CellDynamics& cell) { return cell.density; });
+  std::vector<double> masses = own_masses(scene, shared);
   for (const auto& [node, mass] : added_masses(scene)) masses[index(node)] += mass;
   return masses;
 }
 
 std::vector<double> point_mass_damping(const Scene& scene) {
+  if (!has_cells(scene.definition.body)) {
+    std::vector<double> damping = masses_of_nodes(scene);
+    for (double& of_node : damping) of_node *= scene.definition.material_dynamics.mass_damping;
+    return damping;
+  }
   return shared_out(scene, scene.definition.msm.mass,
                     [](const CellDynamics& cell) { return cell.density * cell.mass_damping; });
 }

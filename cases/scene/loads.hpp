@@ -9,6 +9,8 @@
 /// and mm/s² here, and nowhere else.
 namespace springproof::cases {
 
+constexpr double tonnes_per_kg = 1e-3;
+
 /// Part of a node's load or added mass that the modelled part of a symmetric scene carries, as a function of
 /// the node: halved by each symmetry plane through it.
 std::function<double(int node)> modelled_share(const Scene& scene);

@@ -1,5 +1,5 @@
 #include "cases/case/input_file.hpp"
-#include "cases/scene/scene.hpp"
+#include "cases/scene/loads.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +42,15 @@ struct Row {
 
 constexpr auto is_above_0 = [](double value) { return value > 0; };
 
+Eigen::Vector3d place_of(const Row& row) {
+  const auto is_place = [](double value) { return std::abs(value) <= 1e9; };
+  Eigen::Vector3d place;
+  for (std::size_t a = 0; a < 3; ++a)
+    place[static_cast<Eigen::Index>(a)] =
+        row.number(a, std::array{"x", "y", "z"}[a], "a number from -1e9 to 1e9 (mm)", is_place);
+  return place;
+}
+
 NetworkSpring spring_of(const Row& row, std::size_t n_nodes) {
   if (row.row.fields.size() < 3 || row.row.fields.size() > 5)
     throw InputError(fmt::format("{}{} fields; a spring has node a, node b, stiffness (N/m), and perhaps "
@@ -58,6 +67,30 @@ NetworkSpring spring_of(const Row& row, std::size_t n_nodes) {
 }
 
 } // namespace
+
+NetworkNodes read_nodes(const std::string& text, const std::string& name) {
+  NetworkNodes nodes;
+  const auto add = [&](const TextRow& line) {
+    const Row row{line};
+    if (line.fields.size() != 3 && line.fields.size() != 4)
+      throw InputError(fmt::format("{}{} fields; a node has x, y, z (mm), and perhaps mass (kg)",
+                                   line.place(), line.fields.size()));
+    if (nodes.places.size() == 715'000'000)
+      throw InputError(line.place() + "more than 715 million nodes cannot be numbered");
+    const bool has_mass = row.has(3);
+    if (!nodes.places.empty() && has_mass == nodes.masses.empty())
+      row.refuse(3, "mass", has_mass ? "left out as before" : "there as before (kg)");
+    nodes.places.push_back(place_of(row));
+    if (has_mass)
+      nodes.masses.push_back(tonnes_per_kg *
+                             row.number(3, "mass", "a number from 1e-12 to 1000000 (kg)",
+                                        [](double mass) { return 1e-12 <= mass && mass <= 1e6; }));
+  };
+  read_rows(
+      text, name, Between::commas, [](const TextRow&) {}, add);
+  if (nodes.places.empty()) throw InputError(name + ": a network needs at least one node");
+  return nodes;
+}
 
 std::vector<NetworkSpring> read_network(const std::string& text, const std::string& name,
                                         std::size_t n_nodes) {

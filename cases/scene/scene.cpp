@@ -9,6 +9,7 @@
 #include "cases/mesh/voxels.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 #include "cases/scene/loads.hpp"
+#include "cases/scene/network.hpp"
 #include "cases/scene/regions.hpp"
 
 #include <Eigen/Geometry>
@@ -169,12 +170,20 @@ void resolve_loads(Scene& scene) {
 }
 
 /// Grids of cells are sound by construction, and read_mesh() checks what others may have made.
-Mesh make_mesh(const Body& body, std::vector<std::string>& remarks) {
+/// A network's are read with the masses of its nodes.
+Mesh make_mesh(const Body& body, std::vector<std::string>& remarks, std::vector<double>& node_masses) {
   if (const Box* box = std::get_if<Box>(&body)) return make_box_mesh(box->size, box->cells);
   if (const Voxels* voxels = std::get_if<Voxels>(&body)) return make_voxel_mesh(*voxels, &remarks);
   if (const Labels* labels = std::get_if<Labels>(&body)) return make_label_mesh(*labels);
   if (const FilledSurface* surface = std::get_if<FilledSurface>(&body))
     return fill_surface(*surface, remarks);
+  if (const Network* network = std::get_if<Network>(&body)) {
+    NetworkNodes nodes = read_nodes(read_text_file(network->nodes.path), network->nodes.path);
+    node_masses = std::move(nodes.masses);
+    Mesh mesh;
+    mesh.nodes = std::move(nodes.places);
+    return mesh;
+  }
   return read_mesh(std::get<MeshFile>(body), &remarks);
 }
 
@@ -258,17 +267,6 @@ void read_surface_of(Scene& scene) {
   open_at_symmetry(scene.mesh, scene.definition.symmetry, scene.surface);
 }
 
-/// @throws InputError also when a spring without a rest length of its own joins nodes in one place
-void resolve_network(Scene& scene) {
-  const auto& file = scene.definition.msm.network;
-  if (!file) return;
-  scene.network = read_network(read_text_file(file->path), file->path, scene.mesh.nodes.size());
-  for (const NetworkSpring& spring : scene.network)
-    if (!spring.rest_length && scene.mesh.nodes[index(spring.a)] == scene.mesh.nodes[index(spring.b)])
-      refuse(file->where, "the spring between nodes {} and {}, which lie in one place, needs a rest length",
-             spring.a, spring.b);
-}
-
 } // namespace
 
 int material_of(const Scene& scene, std::size_t cell) {
@@ -284,7 +282,7 @@ Scene make_scene(const Case& case_as_read) {
   Scene scene;
   scene.definition = case_as_read;
   const Case& definition = scene.definition;
-  scene.mesh = cut(make_mesh(definition.body, scene.remarks), definition.removed);
+  scene.mesh = cut(make_mesh(definition.body, scene.remarks, scene.node_masses), definition.removed);
   const bool is_tetrahedron = scene.mesh.shape == CellShape::tetrahedron;
   settle_element(scene.definition, is_tetrahedron);
   settle_design(scene.definition.msm, is_tetrahedron);
@@ -300,7 +298,7 @@ Scene make_scene(const Case& case_as_read) {
   check_sizes(scene);
   for (const AddedMass& added : definition.masses)
     scene.masses.push_back({select(scene.mesh, added.region), added});
-  resolve_network(scene);
+  resolve_network(scene, case_as_read);
   for (const Measure& measure : definition.measures)
     for_each_region(measure, [&](const Region& region, bool is_node) {
       if (is_node) weights_at(scene.mesh, region);

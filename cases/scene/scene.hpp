@@ -46,6 +46,8 @@ struct Scene {
   std::vector<AppliedLoad> loads;
   std::vector<AppliedMass> masses{};
   std::vector<NetworkSpring> network{}; ///< springs of design = "network", which are no cells'
+  std::vector<double> node_masses{};    ///< t, of a network's own nodes; empty: cells have the masses
+  std::vector<Scene> of_fem{};          ///< the finite elements' own, beside a network; empty: there is none
   TriangleMesh surface{};               ///< from the case's file; empty: it names none
   std::vector<std::string> remarks{};   ///< what was left out of files that the body is made from
 };
@@ -83,7 +85,18 @@ std::vector<bool> constrained_dofs(const Scene& scene);
 /// on components that the motion leaves free. Where it is scaled, that is as at a smaller load factor.
 Eigen::Vector3d moved_by(const Moved& motion, const Eigen::Vector3d& rest, double load_factor);
 
-// Networks: `file = "NAME.csv"` in [msm]
+// Networks: `file = "NAME.csv"` in [msm], or `shape = "network"` in [body]
+
+/// The nodes of a network that brings its own.
+struct NetworkNodes {
+  std::vector<Eigen::Vector3d> places; ///< mm
+  std::vector<double> masses;          ///< t, as many or none
+};
+
+/// Reads lines of x, y, z in mm, and perhaps mass in kg, which then every node has. Lines are skipped as in
+/// read_network().
+/// @throws InputError with the line and the field
+NetworkNodes read_nodes(const std::string& text, const std::string& name);
 
 /// Reads lines of node a, node b (numbers from 0, in the order of the .vtu files that --out writes),
 /// stiffness in N/m, and perhaps rest length in mm and exponent of the power-log law. These two may be empty.

@@ -95,6 +95,7 @@ bool has_answer(const CommandOptions& options, const std::vector<DesignAttempt>&
 int run_on_mesh(const CommandOptions& options) {
   const cases::Scene scene =
       make_scene_within_memory(cases::read_case(options.body, options.design.settings));
+  cases::refuse_network(scene.definition, "designs", "export --to csv writes its springs");
   if (is_matrix_made(scene.mesh))
     check_memory(options.body, {estimate_free_springs(size_of(scene))}, memory_limit());
   claim_folder(options.out);

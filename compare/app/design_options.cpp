@@ -135,6 +135,7 @@ msm::DesignRequest from_case(const DesignOptions& o, cases::Element element) {
   if (n_materials(o) > 0)
     throw cases::InputError("command line: --case brings its own material; leave the others out");
   const cases::Scene scene = make_scene_within_memory(cases::read_case(o.case_file, o.settings));
+  cases::refuse_network(scene.definition, "--case", "give a case whose body has cells");
   if (scene.mesh.shape == cases::CellShape::tetrahedron)
     throw cases::InputError(o.case_file +
                             ": --case designs one hexahedral cell, and the springs of tetrahedra "

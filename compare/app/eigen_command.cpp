@@ -51,7 +51,13 @@ int run_vibrations(const EigenOptions& options) {
   const cases::Scene scene = make_scene_within_memory(
       cases::read_case(options.vibrating, options.design.settings, cases::Purpose::vibrations));
   const std::vector<cases::Design> designs = designs_of(options.designs, scene.definition);
-  check_memory(options.vibrating, estimate_vibrations(size_of(scene)), memory_limit());
+  const bool is_network = !cases::has_cells(scene.definition.body);
+  if (!options.designs.empty())
+    cases::refuse_network(scene.definition, "--designs", "leave it out for the network's own springs");
+  check_memory(options.vibrating,
+               is_network ? std::vector{estimate_free_springs(size_of(scene))}
+                          : estimate_vibrations(size_of(scene)),
+               memory_limit());
   if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;

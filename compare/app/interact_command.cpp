@@ -91,6 +91,8 @@ int run(const InteractOptions& options) {
   if (n_mpi_ranks() > 1) throw cases::InputError("interact runs on one rank");
   cases::check_has_vtk(); // for the drawn surface
   const cases::Scene scene = make_scene_within_memory(cases::read_case(options.file, options.settings));
+  cases::refuse_network(scene.definition, "interact, which pulls at a surface",
+                        "run --out --report shows its motion");
   check_memory(options.file, {estimate_springs(size_of(scene))}, memory_limit());
   claim_folder(options.out);
   std::unique_ptr<PageServer> server; // the simulation's thread sends to it, and is stopped before it

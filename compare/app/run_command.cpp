@@ -34,10 +34,10 @@ struct RunOptions {
   std::vector<std::string> settings;
   std::string only = "both";
   std::string out;
-  int meshes = 0;              ///< meshes of the finite elements' limit; 0: as the case asks
-  bool converges_time = false; ///< once more with half the step
+  int meshes = 0;                ///< meshes of the finite elements' limit; 0: as the case asks
+  bool converges_time = false;   ///< once more with half the step
   bool has_error_budget = false; ///< law, mesh, step and iterations apart
-  std::string peer;            ///< a program that is asked too; empty: none
+  std::string peer;              ///< a program that is asked too; empty: none
   DisplacementOptions displacements;
   std::string replay;               ///< a recording of interact; empty: none
   std::vector<std::string> designs; ///< to be ranked, or "all"; empty: the case's own springs are solved
@@ -114,9 +114,14 @@ std::vector<NextCommand> next_commands(const RunOptions& run, const Comparison& 
   const cases::Case& definition = comparison.scene.definition;
   const Answers& answers = comparison.answers;
   const auto is_skipped = [](const Answer& side) { return side.solution.status == cases::Status::skipped; };
+  if (!cases::has_finite_elements(definition)) {
+    if (!run.out.empty() || answers.failed()) return {};
+    return {{line_of(run, definition, {"--only", "msm", "--out", "out", "--report"}), "files and a page"}};
+  }
   if (is_skipped(answers.fem) || is_skipped(answers.msm)) return {{line_of(run, definition), "both models"}};
   std::vector<NextCommand> next;
-  if (answers.fem.converged() && answers.msm_source.empty() && !comparison.measures.empty())
+  if (answers.fem.converged() && answers.msm_source.empty() && !comparison.measures.empty() &&
+      cases::has_cells(definition.body))
     next.push_back({line_of(run, definition, {"--designs", "all"}),
                     answers.msm.converged() ? "other designs" : "designs that may hold here"});
   if (answers.fem.converged() && answers.msm.converged())
@@ -286,7 +291,11 @@ int run_comparisons(const RunOptions& options) {
   if (options.has_error_budget && n_mpi_ranks() > 1)
     throw cases::InputError("--error-budget: it runs on one rank; start the program without mpirun");
   if (options.has_error_budget) // the truth is a limit
-    for (Question& question : questions) question.scene.definition.fem.has_auto_accuracy = true;
+    for (Question& question : questions) {
+      cases::refuse_network(question.scene.definition, "--error-budget",
+                            "the error itself is told without it");
+      question.scene.definition.fem.has_auto_accuracy = true;
+    }
   check_memory(questions);
   questions = with_recording(std::move(questions), options.replay);
   const auto external =

@@ -200,8 +200,11 @@ std::optional<Client> read_client(const std::vector<Question>& questions, const 
   if (argument.empty()) return std::nullopt;
   if (n_mpi_ranks() > 1)
     throw cases::InputError("--client: a client is asked on one rank; start the command without mpirun");
-  for (const Question& question : questions)
+  for (const Question& question : questions) {
+    cases::refuse_network(question.scene.definition, "--client",
+                          "run without it solves the springs of the network");
     check_displacements_suffice(question.scene.definition, "--client");
+  }
   return client_of(argument);
 }
 

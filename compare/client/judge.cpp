@@ -105,6 +105,8 @@ bool JudgedCase::has_failed() const {
 }
 
 Judge::Judge(cases::Scene scene, int meshes) : scene_(std::move(scene)) {
+  cases::refuse_network(scene_.definition, "judge and league, whose programs are told cells",
+                        "run solves the springs of the network");
   if (scene_.definition.measures.empty())
     throw cases::InputError(scene_.definition.file + ": judge: the case has no [[measure]]; add one");
   fem_ = solve_reference(scene_, meshes);

@@ -230,6 +230,8 @@ double tolerated_error_percent(const cases::Expectation& expectation, double fem
 }
 
 Answers solve_fem(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept) {
+  cases::check_finite_elements(scene.definition);
+  if (!scene.of_fem.empty()) return solve_fem_at_network(scene, n_meshes);
   const cases::Fem& asked = scene.definition.fem;
   Answers answers;
   answers.resolved = asked;

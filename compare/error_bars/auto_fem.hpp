@@ -29,6 +29,11 @@ double tolerated_error_percent(const cases::Expectation& expectation, double fem
 /// @param n_meshes  0: as the case's accuracy asks; else so many, from the body's own on, or the finest of
 /// them that of the case when that is refined further
 /// @param kept  answers on single meshes that an earlier command left
+/// @throws InputError for a network without finite elements
 Answers solve_fem(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept = {});
+
+/// The same of the finite elements beside a network, at the network's nodes: by the shape functions of the
+/// cells, outside of them to first order. What that leaves out is told by a quadratic interpolation.
+Answers solve_fem_at_network(const cases::Scene& network, int n_meshes);
 
 } // namespace springproof::compare

@@ -280,7 +280,9 @@ std::optional<ExportedMotion> exported_motion(const cases::Scene& scene) {
 }
 
 ExportedBody exported_body(const cases::Scene& scene) {
-  return {cases::point_masses(scene), embedded_surface(scene)};
+  ExportedBody body{cases::point_masses(scene)};
+  if (cases::has_cells(scene.definition.body)) body.skin = embedded_surface(scene);
+  return body;
 }
 
 void check_expressible(ExportTarget target, const std::string& name, const msm::Problem& problem,

@@ -31,7 +31,7 @@ std::optional<ExportedMotion> exported_motion(const cases::Scene& scene);
 /// What files have of a body beside its springs, supports and loads.
 struct ExportedBody {
   std::vector<double> mass{};        ///< t, one per point; 0 where the case gives no density
-  mechanics::EmbeddedSurface skin{}; ///< the case's surface, or else the outside of the cells
+  mechanics::EmbeddedSurface skin{}; ///< the case's surface, or else the outside of the cells, if any
 };
 ExportedBody exported_body(const cases::Scene& scene);
 

@@ -81,19 +81,31 @@ std::optional<double> sum(const std::optional<double>& a, const std::optional<do
   return a && b ? *a + *b : a ? a : b;
 }
 
+/// Whether a quantity depends on the side that was interpolated.
+bool is_interpolated(const Answers& answers, Quantity quantity) {
+  return answers.interpolated &&
+         quantity != (answers.interpolated->side == cases::Side::fem ? Quantity::msm : Quantity::fem);
+}
+
 /// Returns the uncertainty of the value, in the gate's unit. An error bar of d percent on the finite
 /// elements' value f is d f/100.
 std::optional<double> uncertainty(const cases::Expectation& expected, const MeasuredValue& measured,
-                                  const StudiedMeasure* study) {
+                                  const StudiedMeasure* study, bool is_interpolated) {
+  const auto with = [&](const std::optional<double>& error, const std::optional<double>& interpolation) {
+    return is_interpolated ? sum(error, interpolation) : error;
+  };
   switch (expected.quantity) {
   case Quantity::error_percent:
-    return sum(measured.error_uncertainty_percent, measured.interpolation_error_percent);
+    return with(measured.error_uncertainty_percent, measured.interpolation_error_percent);
   case Quantity::msm:
-    return measured.interpolation_error;
+    return with({}, measured.interpolation_error);
   case Quantity::fem:
-    if (needs_limit(expected) && measured.fem_limit) return measured.fem_limit->uncertainty;
-    if (!study || !study->discretisation_error_percent || !measured.fem) return std::nullopt;
-    return *study->discretisation_error_percent / 100 * std::abs(*measured.fem);
+    if (needs_limit(expected) && measured.fem_limit)
+      return with(measured.fem_limit->uncertainty, measured.interpolation_error);
+    if (!study || !study->discretisation_error_percent || !measured.fem)
+      return with({}, measured.interpolation_error);
+    return with(*study->discretisation_error_percent / 100 * std::abs(*measured.fem),
+                measured.interpolation_error);
   }
   return std::nullopt;
 }
@@ -159,16 +171,16 @@ std::vector<Gate> judge(const cases::Scene& scene, const Answers& answers,
     const std::string unit = measure ? unit_of(*measure) : measured ? measured->unit : "";
     gate.unit = expected.quantity == Quantity::error_percent ? "%" : unit;
     if (!gate.met() && !gate.value && measured) explain(gate, answers, *measured);
-    if (measured && gate.value) gate.uncertainty = uncertainty(expected, *measured, studied);
-    const bool is_interpolated = answers.interpolated && expected.quantity != Quantity::fem;
-    if (is_interpolated && measured && measured->interpolation_error)
+    const bool of_interpolated = is_interpolated(answers, expected.quantity);
+    if (measured && gate.value) gate.uncertainty = uncertainty(expected, *measured, studied, of_interpolated);
+    if (of_interpolated && measured && measured->interpolation_error)
       gate.uncertain = measured->error_uncertainty_percent && expected.quantity == Quantity::error_percent
                            ? "reference and interpolation"
                            : "interpolation";
     const bool is_of_limit = holds_for_all(expected) && expected.quantity != Quantity::msm;
     if (needs_limit(expected) && gate.value && !measured->fem_limit)
       miss_without_limit(gate, answers, studied);
-    else if ((is_of_limit || is_interpolated) && gate.value && gate.uncertainty)
+    else if ((is_of_limit || of_interpolated) && gate.value && gate.uncertainty)
       judge_with_uncertainty(gate, is_of_limit && study
                                        ? what_decides(*study)
                                        : "results on the case's own mesh, or on finer meshes, decide it");

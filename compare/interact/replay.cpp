@@ -31,6 +31,8 @@ cases::History history_of(const Hold& hold, int axis, double step) {
 } // namespace
 
 cases::Scene with_recording(cases::Scene scene, const std::string& text, const std::string& path) {
+  cases::refuse_network(scene.definition, "--replay, whose pulls are at a surface",
+                        "a history in [[load]] pulls at nodes");
   const auto& dynamics = scene.definition.dynamics;
   if (!dynamics) throw cases::InputError(scene.definition.file + ": has no [dynamics] to replay pulls in");
   const std::vector<Hold> holds = read_recording(text, path, dynamics->step, dynamics->end);

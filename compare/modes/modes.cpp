@@ -110,8 +110,10 @@ DesignVibrations of_design(const cases::Scene& scene, const Vibrations& fem, con
   DesignVibrations found{cases::name_of(scene.definition.msm.design), {}, {}, {}};
   try {
     const msm::Lattice lattice = msm::make_lattice(scene.mesh, design_for(scene).springs);
-    found.msm = vibrations_of(msm::vibrating_body(scene, lattice), masses, 2 * n_modes + n_beyond);
-    found.modes = match_modes(fem, found.msm, masses, n_modes);
+    const bool is_alone = !cases::has_cells(scene.definition.body);
+    found.msm = vibrations_of(msm::vibrating_body(scene, lattice), masses,
+                              is_alone ? n_modes : 2 * n_modes + n_beyond);
+    if (!is_alone) found.modes = match_modes(fem, found.msm, masses, n_modes);
   } catch (const cases::InputError& error) {
     found.refusal = error.what();
   } catch (const cases::SolveError& error) {
@@ -258,15 +260,19 @@ std::vector<MatchedModes> match_modes(const Vibrations& fem, const Vibrations& m
 
 VibrationStudy study_vibrations(const cases::Scene& scene, const std::vector<cases::Design>& designs,
                                 int n_modes) {
-  if (!scene.definition.material_dynamics.density)
+  const bool is_network = !cases::has_cells(scene.definition.body);
+  if (is_network && scene.node_masses.empty())
+    std::get<cases::Network>(scene.definition.body)
+        .nodes.refuse(
+            "has no masses, and what has none does not vibrate: give every node a fourth column, kg");
+  if (!is_network && !scene.definition.material_dynamics.density)
     throw cases::InputError(
         scene.definition.file +
         ": material.density is missing, must be given: what has no mass does not vibrate");
   const Eigen::VectorXd masses = mode_masses(scene);
+  VibrationStudy study{scene.definition.name, {}, {}};
   // One space of the finite elements more than is matched shows whether the last one is whole.
-  VibrationStudy study{scene.definition.name,
-                       vibrations_of(solvers().vibrating_elements(scene), masses, n_modes + n_beyond),
-                       {}};
+  if (!is_network) study.fem = vibrations_of(solvers().vibrating_elements(scene), masses, n_modes + n_beyond);
   if (designs.empty()) study.designs.push_back(of_design(scene, study.fem, masses, n_modes));
   for (const cases::Design design : designs)
     study.designs.push_back(of_design(with_design(scene, design), study.fem, masses, n_modes));

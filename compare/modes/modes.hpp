@@ -120,7 +120,7 @@ struct DesignVibrations {
 };
 struct VibrationStudy {
   std::string name; ///< name of the case
-  Vibrations fem;
+  Vibrations fem;   ///< none beside a network, whose modes are of its springs alone
   std::vector<DesignVibrations> designs;
 };
 
@@ -137,7 +137,8 @@ Vibrations vibrations_of(const mechanics::VibratingBody& body, const Eigen::Vect
 std::vector<MatchedModes> match_modes(const Vibrations& fem, const Vibrations& msm,
                                       const Eigen::VectorXd& masses, int n_modes);
 
-/// Both models of a scene whose materials have densities.
+/// Both models of a scene whose materials have densities, or the springs of a network whose nodes have
+/// masses.
 /// @param designs  spring designs; empty: the case's own. One that cannot serve the case is refused by itself
 /// @throws InputError; SolveError where the finite elements fail
 VibrationStudy study_vibrations(const cases::Scene& scene, const std::vector<cases::Design>& designs,

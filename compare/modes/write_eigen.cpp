@@ -59,6 +59,23 @@ Json mode_to_json(const MatchedModes& mode) {
           {"error_percent", mode.error_percent}};
 }
 
+/// A design's modes; a network's, which have no finite elements beside them, by their frequencies alone.
+Json modes_to_json(const VibrationStudy& study, const DesignVibrations& design) {
+  if (study.fem.hertz.size() > 0) return json_list(design.modes, mode_to_json);
+  return json_list(cluster(design.msm.hertz, 0, same_frequency), [](const Eigenspace& space) -> Json {
+    return {{"fem_hz", nullptr},
+            {"multiplicity", space.dimension},
+            {"msm_hz", space.eigenvalue},
+            {"overlap", nullptr},
+            {"error_percent", nullptr}};
+  });
+}
+
+/// Rigid motions of a study's body, by its finite elements or else by its springs.
+int n_rigid_of(const VibrationStudy& study) {
+  return study.fem.hertz.size() > 0 ? study.fem.n_rigid : study.designs.front().msm.n_rigid;
+}
+
 void write_rows(const std::string& path, const std::string& columns, const Json& rows) {
   write_file(path, [&](std::ostream& out) { write_csv(out, columns_of(columns), rows, 8); });
 }
@@ -231,7 +248,7 @@ void write_free_modes_files(const std::string& folder, const FreeBodyModes& mode
 
 void write_vibrations_text(std::ostream& out, const VibrationStudy& study) {
   print(out, "{}: vibrations about rest", study.name);
-  if (study.fem.n_rigid > 0) print(out, ", {} rigid motions left out", study.fem.n_rigid);
+  if (const int n = n_rigid_of(study); n > 0) print(out, ", {} rigid motions left out", n);
   print(out, "\n");
   for (const DesignVibrations& design : study.designs) {
     if (!design.refusal.empty()) {
@@ -242,18 +259,16 @@ void write_vibrations_text(std::ostream& out, const VibrationStudy& study) {
     write_table(out,
                 columns_of("fem~Hz=fem_hz{:.6g} dim=multiplicity msm~Hz=msm_hz{:.6g} "
                            "error~%=error_percent{:+.2f} overlap{:.4f}"),
-                json_list(design.modes, mode_to_json));
+                modes_to_json(study, design));
   }
 }
 
 Json vibrations_to_json(const VibrationStudy& study) {
-  const Json designs = json_list(study.designs, [](const DesignVibrations& design) -> Json {
-    return {{"design", design.design},
-            {"refusal", design.refusal},
-            {"modes", json_list(design.modes, mode_to_json)}};
+  const Json designs = json_list(study.designs, [&](const DesignVibrations& design) -> Json {
+    return {{"design", design.design}, {"refusal", design.refusal}, {"modes", modes_to_json(study, design)}};
   });
   return {{"case", study.name},
-          {"rigid_motions", study.fem.n_rigid},
+          {"rigid_motions", n_rigid_of(study)},
           {"fem_hz", std::vector<double>(study.fem.hertz.begin(), study.fem.hertz.end())},
           {"designs", designs},
           {"modes", designs.front()["modes"]}};
@@ -261,19 +276,26 @@ Json vibrations_to_json(const VibrationStudy& study) {
 
 void write_vibrations_files(const std::string& folder, const VibrationStudy& study, const cases::Mesh& mesh) {
   std::vector<cases::PointField> fields;
-  const auto add = [&](const std::string& model, const MatchedModes& mode, const Eigen::VectorXd& shape) {
-    fields.push_back({fmt::format("{}_mode_{}", model, mode.fem_mode + 1),
-                      as_points(shape / shape.cwiseAbs().maxCoeff())});
+  const auto add = [&](const std::string& model, int mode, const Eigen::VectorXd& shape) {
+    fields.push_back(
+        {fmt::format("{}_mode_{}", model, mode + 1), as_points(shape / shape.cwiseAbs().maxCoeff())});
   };
   Json rows = Json::array();
-  for (const DesignVibrations& design : study.designs)
-    for (const MatchedModes& mode : design.modes) {
-      rows.push_back(mode_to_json(mode));
-      rows.back()["design"] = design.design;
-      rows.back()["mode"] = mode.fem_mode + 1;
-      if (&design == &study.designs.front()) add("fem", mode, study.fem.shapes.col(mode.fem_mode));
-      if (mode.msm_hz) add(design.design, mode, design.msm.shapes.col(mode.msm_mode));
+  for (const DesignVibrations& design : study.designs) {
+    int first = 0; // mode of a row
+    for (Json row : modes_to_json(study, design)) {
+      row["design"] = design.design;
+      row["mode"] = first + 1;
+      first += row["multiplicity"].get<int>();
+      rows.push_back(std::move(row));
     }
+    for (const MatchedModes& mode : design.modes) {
+      if (&design == &study.designs.front()) add("fem", mode.fem_mode, study.fem.shapes.col(mode.fem_mode));
+      if (mode.msm_hz) add(design.design, mode.fem_mode, design.msm.shapes.col(mode.msm_mode));
+    }
+    for (Eigen::Index m = 0; m < design.msm.shapes.cols() && study.fem.hertz.size() == 0; ++m)
+      add(design.design, static_cast<int>(m), design.msm.shapes.col(m));
+  }
   const std::string path = folder + "/" + study.name + "_modes";
   write_rows(path + ".csv", "design mode fem_hz multiplicity msm_hz overlap error_percent", rows);
   write_shapes(path + ".vtu", mesh, fields);

@@ -195,6 +195,8 @@ std::optional<ExternalDisplacements> read_external(const std::vector<Question>& 
   if (questions.size() != 1)
     throw cases::InputError(
         fmt::format("--msm-displacements: belongs to one case, {} are given", questions.size()));
+  cases::refuse_network(questions.front().scene.definition, "--msm-displacements",
+                        "give the body as a mesh of cells, in whose nodes they are");
   check_displacements_suffice(questions.front().scene.definition, "--msm-displacements");
   const cases::Scene& scene = questions.front().scene;
   if (scene.definition.dynamics) {

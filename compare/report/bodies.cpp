@@ -29,11 +29,11 @@ Lengths lengths(const std::vector<Eigen::Vector3d>& points) {
   return result;
 }
 
-/// The part of a mesh that can be seen.
+/// The part of a mesh that can be seen: faces, or the lines of a network.
 struct Surface {
   std::vector<std::size_t> nodes; ///< numbers in the mesh, in the surface's order
   std::vector<long> faces;
-  std::size_t corners = 0; ///< a face
+  std::size_t corners = 0; ///< a face; 2: lines
   Lengths rest;
   bool operator==(const Surface& other) const { return rest == other.rest && faces == other.faces; }
 };
@@ -42,8 +42,8 @@ Surface surface_of(const cases::Mesh& mesh) {
   Surface surface;
   std::vector<Eigen::Vector3d> points;
   std::vector<long> number(mesh.nodes.size(), -1);
-  surface.corners = cases::reference_cell(mesh.shape).faces[0].size();
-  for (const cases::FaceNodes& face : cases::boundary_faces(mesh))
+  const auto add = [&](const auto& face) {
+    surface.corners = face.size();
     for (const int vertex : face) {
       const auto node = static_cast<std::size_t>(vertex);
       if (number[node] < 0) {
@@ -53,6 +53,9 @@ Surface surface_of(const cases::Mesh& mesh) {
       }
       surface.faces.push_back(number[node]);
     }
+  };
+  for (const cases::FaceNodes& face : cases::boundary_faces(mesh)) add(face);
+  for (const auto& line : mesh.lines) add(line);
   surface.rest = lengths(points);
   return surface;
 }

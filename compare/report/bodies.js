@@ -16,12 +16,12 @@ function unique_lines(pairs) {
 
 function surface_of(of_body) {
   const triangles = [], edges = [], diagonals = [];
-  const n = of_body.corners; // 3 or 4 a face
+  const n = of_body.corners; // 3 or 4 a face, 2 a line
   for (let f = 0; f < of_body.faces.length; f += n) {
     const face = of_body.faces.slice(f, f + n), [a, b, c, d] = face;
-    triangles.push(a, b, c);
     face.forEach((from, i) => edges.push([from, face[(i + 1) % n]]));
-    if (n === 3) continue;
+    if (n > 2) triangles.push(a, b, c);
+    if (n < 4) continue;
     triangles.push(a, c, d);
     diagonals.push([a, c], [b, d]);
   }

@@ -30,13 +30,16 @@ struct RefinedMeshes {
   std::string reason; ///< why there are none or no more; empty when all that were tried are there
 };
 
-/// How another program's results on a mesh of its own came to the nodes of the case's mesh.
+/// How results on a mesh of their own came to the nodes of the case's mesh: another program's, or beside a
+/// network those of the finite elements.
 struct Interpolated {
-  std::size_t n_points = 0;    ///< points of the results
+  cases::Side side = cases::Side::msm; ///< whose results they are
+  std::size_t n_points = 0;            ///< points of the results
   std::size_t n_outside = 0;   ///< nodes outside of the results' cells, with the value of the closest place
   double largest_distance = 0; ///< distance of the farthest of them, mm
   /// The finite elements' displacement, interpolated to the results' points and back to the nodes: what two
-  /// interpolations lose estimates what one has lost. Skipped where the finite elements failed.
+  /// interpolations lose estimates what one has lost. Beside a network, the displacement interpolated by
+  /// quadratic functions. Skipped where the finite elements failed.
   Answer fem_and_back;
 };
 
@@ -50,7 +53,7 @@ struct Answers {
   std::optional<msm::DesignResult> design; ///< absent when the springs were skipped or could not be designed
   std::optional<RefinedMeshes> refined;    ///< meshes of the finite elements' limit, if asked for
   std::optional<Peer> peer;                ///< when asked for
-  std::optional<Interpolated> interpolated{}; ///< how msm_source came to the nodes, if it was interpolated
+  std::optional<Interpolated> interpolated{}; ///< of a side that was interpolated
   std::vector<std::string> msm_warnings{};    ///< what msm_source does and no answer to the case would
 
   /// A side that was asked for did not converge.

@@ -266,7 +266,19 @@ std::vector<Estimate> estimate(const BodySize& body, const Request& request) {
 }
 
 std::vector<Estimate> estimate(const Question& question) {
-  return estimate(size_of(question.scene), question.request);
+  const auto& [scene, request] = question;
+  if (cases::has_cells(scene.definition.body)) return estimate(size_of(scene), request);
+  std::vector<Estimate> models;
+  for (const auto& [side, body] :
+       {std::pair{cases::Side::fem, scene.of_fem.empty() ? nullptr : &scene.of_fem.front()},
+        std::pair{cases::Side::msm, &scene}}) {
+    Request of_side = request;
+    of_side.only = side;
+    if (!body || !request.asks(side)) continue;
+    const std::vector<Estimate> more = estimate(size_of(*body), of_side);
+    models.insert(models.end(), more.begin(), more.end());
+  }
+  return models;
 }
 
 double total_seconds(const std::vector<Estimate>& models) {

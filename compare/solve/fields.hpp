@@ -27,7 +27,8 @@ SPRINGPROOF_FIELDS(springproof::msm::DesignResult, stiffness, residual, moduli, 
 SPRINGPROOF_FIELDS(springproof::compare::Answer, solution, setup_seconds, solve_seconds)
 SPRINGPROOF_FIELDS(springproof::compare::RefinedMeshes, refine, solutions, reason)
 SPRINGPROOF_FIELDS(springproof::compare::Peer, program, answer, largest_difference)
-SPRINGPROOF_FIELDS(springproof::compare::Interpolated, n_points, n_outside, largest_distance, fem_and_back)
+SPRINGPROOF_FIELDS(springproof::compare::Interpolated, side, n_points, n_outside, largest_distance,
+                   fem_and_back)
 SPRINGPROOF_FIELDS(springproof::compare::Answers, resolved, choices, fem, msm, msm_source, design, refined,
                    peer, interpolated, msm_warnings)
 SPRINGPROOF_FIELDS(springproof::compare::Request, only, meshes, peer, n_threads)

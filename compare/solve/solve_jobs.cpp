@@ -60,8 +60,9 @@ ReadJobs read_jobs(const std::vector<SolveJob>& jobs) {
     Request request;
     request.only = jobs[j].only;
     try {
-      read.questions.push_back(
-          {make_scene_within_memory(cases::read_case(jobs[j].case_file, jobs[j].settings)), request});
+      const cases::Case definition = cases::read_case(jobs[j].case_file, jobs[j].settings);
+      if (request.asks(cases::Side::fem)) cases::check_finite_elements(definition);
+      read.questions.push_back({make_scene_within_memory(definition), request});
       read.job.push_back(j);
     } catch (const cases::InputError& error) {
       read.failed.emplace_back(j, failed_answers(request, error));
@@ -83,6 +84,11 @@ std::vector<Question> read_questions(const std::vector<std::string>& case_files,
   for (const std::string& file : case_files) {
     const cases::Case definition = cases::read_case(file, settings);
     if (const auto body = size_of(definition)) check_memory(file, estimate(*body, request), memory);
+    if (request.asks(cases::Side::fem)) cases::check_finite_elements(definition);
+    if (!request.peer.empty())
+      cases::refuse_network(definition, "--peer", "leave it out, or solve the finite elements' own body");
+    if (n_mpi_ranks() > 1)
+      cases::refuse_network(definition, "several ranks", "start the command without mpirun");
     questions.push_back({make_scene_within_memory(definition), request});
   }
   if (n_mpi_ranks() > 1) {

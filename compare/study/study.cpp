@@ -18,6 +18,7 @@ namespace springproof::compare {
 namespace {
 
 void check_measures(const cases::Scene& scene) {
+  cases::refuse_network(scene.definition, "other designs", "run without --designs solves its own springs");
   if (scene.definition.measures.empty())
     throw cases::InputError(scene.definition.file +
                             ": --designs ranks by the errors of measures, and the case "

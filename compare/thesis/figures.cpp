@@ -97,17 +97,34 @@ std::vector<Line> edges_of(const std::vector<Face>& faces, Edges wanted) {
   return lines;
 }
 
+/// A network's springs.  @param displacement  empty: at rest
+std::vector<Line> lines_of(const cases::Mesh& mesh, const std::vector<Eigen::Vector3d>& displacement) {
+  const auto at = [&](int node) -> Eigen::Vector3d {
+    const Eigen::Vector3d rest = mesh.nodes[cases::index(node)];
+    return displacement.empty() ? rest : rest + displacement[cases::index(node)];
+  };
+  std::vector<Line> lines;
+  for (const auto& [a, b] : mesh.lines) lines.push_back({at(a), at(b)});
+  return lines;
+}
+
 /// What is seen of a panel, by name. A side without displacements is empty.
 std::vector<std::pair<std::string, std::vector<Line>>> blocks_of(const Overlay& panel,
                                                                  const Eigen::Matrix3d& view) {
+  const auto seen = [&](const DeformedBody& body, const std::vector<Eigen::Vector3d>& displacement,
+                        Edges wanted) {
+    return body.mesh->lines.empty() ? edges_of(visible_faces(*body.mesh, displacement, view), wanted)
+                                    : lines_of(*body.mesh, displacement);
+  };
   std::vector<Line> fem, springs;
   if (panel.fem.is_there())
-    fem = closed_polygons(visible_faces(*panel.fem.mesh, *panel.fem.displacement, view));
-  if (panel.springs.is_there())
-    springs = edges_of(visible_faces(*panel.springs.mesh, *panel.springs.displacement, view), Edges::all);
+    fem = panel.fem.mesh->lines.empty()
+              ? closed_polygons(visible_faces(*panel.fem.mesh, *panel.fem.displacement, view))
+              : lines_of(*panel.fem.mesh, *panel.fem.displacement);
+  if (panel.springs.is_there()) springs = seen(panel.springs, *panel.springs.displacement, Edges::all);
   return {{panel.title + " - finite elements", fem},
           {panel.title + " - springs", springs},
-          {panel.title + " - at rest", edges_of(visible_faces(*panel.springs.mesh, {}, view), Edges::sharp)}};
+          {panel.title + " - at rest", seen(panel.springs, {}, Edges::sharp)}};
 }
 
 /// Decimals of coordinates: four, and more for a body smaller than 1 mm.

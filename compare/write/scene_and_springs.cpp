@@ -159,10 +159,12 @@ Json cell_to_json(const msm::BodyTerms& terms) {
 
 void write_scene_text(std::ostream& out, const cases::Scene& scene) {
   const auto [size, volume] = measured_body(scene.mesh);
+  const std::string parts = cases::has_cells(scene.definition.body)
+                                ? fmt::format("{:.6g} mm3, {} cells", volume, scene.mesh.cells.size())
+                                : fmt::format("a network of {} springs without cells", scene.network.size());
   write_wrapped(out,
-                fmt::format("  body     {:.6g} x {:.6g} x {:.6g} mm, {:.6g} mm3, {} cells, {} nodes",
-                            size.x(), size.y(), size.z(), volume, scene.mesh.cells.size(),
-                            scene.mesh.nodes.size()),
+                fmt::format("  body     {:.6g} x {:.6g} x {:.6g} mm, {}, {} nodes", size.x(), size.y(),
+                            size.z(), parts, scene.mesh.nodes.size()),
                 11);
   std::vector<std::string> loads;
   if (const auto all = resultant_of(scene)) {
@@ -199,7 +201,7 @@ std::string stiffness_text(const msm::CellStiffness& k) {
 }
 
 std::string springs_text(const msm::DesignResult& design) {
-  if (design.springs.network()) return "of the case's file";
+  if (design.springs.network()) return "the springs of the case's file";
   const msm::BodyTerms* terms = design.springs.terms();
   if (terms && terms->boundary == msm::Boundary::whole)
     return fmt::format("every spring {:.4g} N/m", 1e3 * design.stiffness.internal_diagonal);

@@ -20,8 +20,17 @@ void add_mesh_study(Json& side, const MeshStudy& study) {
   side["mesh_study"]["measures"] = json_list(study.measures, studied_to_json);
 }
 
+/// Adds how a side came to the nodes, if it is the one that was interpolated.
+void add_interpolated(Json& json, const Answers& answers, cases::Side side) {
+  if (const auto& from = answers.interpolated; from && from->side == side)
+    json["interpolated"] = {{"points", from->n_points},
+                            {"nodes_outside", from->n_outside},
+                            {"largest_distance_outside", from->largest_distance}};
+}
+
 Json fem_to_json(const Comparison& comparison) {
   Json side = side_to_json(comparison.answers.fem);
+  add_interpolated(side, comparison.answers, cases::Side::fem);
   if (!comparison.answers.choices.empty()) side["choices"] = comparison.answers.choices;
   if (comparison.mesh_study) add_mesh_study(side, *comparison.mesh_study);
   return side;
@@ -37,10 +46,7 @@ Json msm_to_json(const Answers& answers) {
       side[key] = nullptr;
     side["seconds"] = {{"setup", nullptr}, {"solve", nullptr}};
   }
-  if (answers.interpolated)
-    side["interpolated"] = {{"points", answers.interpolated->n_points},
-                            {"nodes_outside", answers.interpolated->n_outside},
-                            {"largest_distance_outside", answers.interpolated->largest_distance}};
+  add_interpolated(side, answers, cases::Side::msm);
   if (answers.design) {
     side.update(springs_to_json(*answers.design));
     side["warnings"] = answers.design->warnings;

@@ -47,6 +47,10 @@ void add_side(cases::GridFields& all, const std::string& side, const cases::Mesh
   if (solution.status != cases::Status::converged) return;
   const cases::Sharing* const sharing = solution.sharing.get();
   all.point_vectors.push_back({side + "_displacement", solution.displacement, "mm"});
+  if (mesh.cells.empty()) { // lines, which have no fields of cells
+    if (solution.fields) all.point_vectors.push_back({side + "_reaction", solution.fields->reaction, "N"});
+    return;
+  }
   all.cell_numbers.push_back({side + "_cell_volume", solution.cell_volume, "mm3"});
   const std::vector<bool> inverted = cases::inverted_cells(mesh, solution.displacement, sharing);
   all.cell_numbers.push_back({side + "_inverted", {inverted.begin(), inverted.end()}, "1"});
@@ -86,6 +90,7 @@ void add_case(cases::GridFields& all, const cases::Scene& scene, const cases::Sh
       if (here.nodes.has(cases::index(node))) force[cases::index(node) - here.nodes.begin] += value;
     all.point_vectors.push_back({"applied_force", force, "N"});
   }
+  if (scene.mesh.cells.empty()) return;
   std::vector<double> material;
   for (std::size_t c = here.cells.begin; c < here.cells.end; ++c)
     material.push_back(cases::material_of(scene, c));
@@ -218,6 +223,11 @@ struct Edge {
   double rest_length = 0, tension = 0, stiffness = 0;
 };
 
+std::string vtu_of(const cases::Mesh& mesh, const cases::GridFields& fields) {
+  return mesh.cells.empty() ? cases::vtk().write_lines(mesh.nodes.to_vector(), mesh.lines, fields)
+                            : cases::vtk().write_unstructured_grid(mesh, fields);
+}
+
 Lines lines_of(const msm::Lattice& lattice, const std::vector<Vector3d>& displacement) {
   const auto along = [&](int i, int j) -> Vector3d {
     return (lattice.rest[index(j)] - lattice.rest[index(i)]) +
@@ -286,11 +296,11 @@ void remove_numbered(const std::string& folder, const std::string& name, int fir
 }
 
 void write_vtu(std::ostream& out, const Comparison& comparison) {
-  out << cases::vtk().write_unstructured_grid(comparison.scene.mesh, grid_fields_of(comparison));
+  out << vtu_of(comparison.scene.mesh, grid_fields_of(comparison));
 }
 
 void write_vtu(std::ostream& out, const cases::Mesh& mesh, const std::vector<cases::PointField>& fields) {
-  out << cases::vtk().write_unstructured_grid(mesh, {fields});
+  out << vtu_of(mesh, {fields});
 }
 
 void write_fields(const std::string& folder, const Comparison& comparison) {

@@ -75,23 +75,12 @@ void write_side(std::ostream& out, const std::string& label, const std::string& 
   if (!s.message.empty()) write_below(out, s.message);
 }
 
-void write_fem(std::ostream& out, const Comparison& comparison) {
-  const cases::Case& definition = comparison.scene.definition;
-  const Answers& answers = comparison.answers;
-  write_side(out, "fem",
-             cases::name_of(answers.resolved.formulation) + " " + cases::name_of(definition.fem.element),
-             answers.fem, definition.dynamics.has_value());
-  for (const std::string& choice : answers.choices) write_below(out, choice);
-}
-
-std::string describe(const std::optional<msm::DesignResult>& design, cases::Design method) {
-  if (!design) return cases::name_of(method);
-  return cases::name_of(method) + " with " + springs_text(*design);
-}
-
 /// Estimates of what results on another mesh have lost on the way to this one.
-std::string interpolation_text(const std::vector<MeasuredValue>& measures) {
-  std::string text = "the interpolation adds up to (fem's displacement, interpolated there and back):";
+std::string interpolation_text(const std::vector<MeasuredValue>& measures, cases::Side side) {
+  std::string text =
+      fmt::format("the interpolation adds up to ({}):",
+                  side == cases::Side::fem ? "against quadratic functions"
+                                           : "fem's displacement, interpolated there and back");
   const char* separator = "";
   for (const MeasuredValue& m : measures) {
     text += fmt::format("{} {} {} {}", std::exchange(separator, ";"), m.name,
@@ -109,8 +98,24 @@ void write_interpolated(std::ostream& out, const Comparison& comparison) {
                         from.n_outside, from.largest_distance);
   write_below(out, text);
   write_below(out, from.fem_and_back.converged()
-                       ? interpolation_text(comparison.measures)
+                       ? interpolation_text(comparison.measures, from.side)
                        : "the interpolation's error is not known: fem has no displacement to try it on");
+}
+
+void write_fem(std::ostream& out, const Comparison& comparison) {
+  const cases::Case& definition = comparison.scene.definition;
+  const Answers& answers = comparison.answers;
+  write_side(out, "fem",
+             cases::name_of(answers.resolved.formulation) + " " + cases::name_of(definition.fem.element),
+             answers.fem, definition.dynamics.has_value());
+  if (answers.interpolated && answers.interpolated->side == cases::Side::fem)
+    write_interpolated(out, comparison);
+  for (const std::string& choice : answers.choices) write_below(out, choice);
+}
+
+std::string describe(const std::optional<msm::DesignResult>& design, cases::Design method) {
+  if (!design) return cases::name_of(method);
+  return cases::name_of(method) + " with " + springs_text(*design);
 }
 
 /// Another program's displacements in place of our springs'.
@@ -130,7 +135,8 @@ void write_springs(std::ostream& out, const Comparison& comparison) {
                definition.dynamics.has_value());
   else
     write_external(out, comparison);
-  if (answers.interpolated) write_interpolated(out, comparison);
+  if (answers.interpolated && answers.interpolated->side == cases::Side::msm)
+    write_interpolated(out, comparison);
 }
 
 /// One paragraph: what became of the peer, and how far it is from the finite elements.

@@ -3,7 +3,7 @@
 usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
 
 Kinds: case, dynamic, msh, tetrahedra, tetrahedra22, tetrahedra_vtu, tetrahedra_vtk, stl, obj, ply, skin, nifti, vtu, cells, vtk, vtp,
-displacements, motion, pvd, network, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the program may have more, in
+displacements, motion, pvd, network, nodes, network_alone, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the program may have more, in
 the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and without a word of a sanitizer's; a damaged kept result ends in
 the numbers of an undisturbed run. What offends is left in the folder that is named. The damage is the same in every run. Only Python's
 standard library is used.
@@ -427,6 +427,49 @@ class Network(Kind):
         return springproof("run", "--only", "msm", self.case(), "--set", "msm.design=network", "--set", "msm.file=springs.csv")
 
 
+class Nodes(Kind):
+    """The nodes of a network without cells, with masses, between which the same springs are."""
+    case_text = """schema = 1
+name = "damaged"
+[body]
+shape = "network"
+nodes = "nodes.csv"
+springs = "springs.csv"
+[[fixed]]
+region = "z-"
+[[load]]
+region = "z+"
+kind = "total_force"
+value = [0, 0.002, 0]
+[[load]]
+kind = "gravity"
+value = [0, 0, -1]
+[[measure]]
+name = "reaction"
+kind = "reaction"
+region = "z-"
+component = "y"
+"""
+    whole = "\n".join(["x,y,z,mass", *(f"{n % 3},{n // 3 % 3},{n // 9}.5,{1e-6 * (1 + n)}" for n in range(27)), ""]).encode()
+
+    def given(self, content):
+        (self.folder / "nodes.csv").write_bytes(content)
+        (self.folder / "springs.csv").write_bytes(Network(self.folder).whole)
+        (self.folder / "case.toml").write_text(self.case_text)
+        return springproof("run", "--only", "msm", self.folder / "case.toml")
+
+
+class NetworkAlone(Nodes):
+    """The springs of the same."""
+    whole = property(lambda self: Network(self.folder).whole)
+
+    def given(self, content):
+        (self.folder / "nodes.csv").write_bytes(Nodes.whole)
+        (self.folder / "springs.csv").write_bytes(content)
+        (self.folder / "case.toml").write_text(self.case_text)
+        return springproof("run", "--only", "msm", self.folder / "case.toml")
+
+
 class Curve(Kind):
     whole = "\n".join(["stretch,stress", *(f"{1 + 0.02 * i},{0.012 * i}" for i in range(20)), ""]).encode()
 
@@ -457,7 +500,8 @@ class Kept(Kind):
 
 KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "tetrahedra": Tetrahedra, "tetrahedra22": Tetrahedra22,
          "tetrahedra_vtu": TetrahedraVtu, "tetrahedra_vtk": TetrahedraVtk, "stl": Stl, "obj": Obj, "ply": Ply, "skin": Skin, "nifti": Nifti, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
-         "displacements": Displacements, "motion": Motion, "pvd": Pvd, "network": Network, "curve": Curve, "kept": Kept}
+         "displacements": Displacements, "motion": Motion, "pvd": Pvd, "network": Network, "nodes": Nodes,
+         "network_alone": NetworkAlone, "curve": Curve, "kept": Kept}
 
 
 def try_out(kind, count, keep):

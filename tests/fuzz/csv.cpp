@@ -1,5 +1,5 @@
 // The readers of comma-separated values as a target for libFuzzer: displacements, measured curves, spring
-// networks and recordings of pulls.
+// networks and their nodes, and recordings of pulls.
 
 #include "cases/scene/scene.hpp"
 #include "compare/interact/recording.hpp"
@@ -34,6 +34,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
       PROMISE(!spring.rest_length || (std::isfinite(*spring.rest_length) && *spring.rest_length > 0));
       PROMISE(!spring.exponent || std::abs(*spring.exponent) <= 20);
     }
+  } catch (const cases::InputError&) {
+    // the same
+  }
+  try {
+    const cases::NetworkNodes nodes =
+        cases::read_nodes({reinterpret_cast<const char*>(bytes), size}, "nodes");
+    PROMISE(!nodes.places.empty() && (nodes.masses.empty() || nodes.masses.size() == nodes.places.size()));
+    for (const Eigen::Vector3d& place : nodes.places) PROMISE(place.allFinite());
+    for (const double mass : nodes.masses) PROMISE(std::isfinite(mass) && mass > 0);
   } catch (const cases::InputError&) {
     // the same
   }

@@ -1,5 +1,8 @@
 #include "cases/scene/network.hpp"
 
+#include "cases/case/read_case.hpp"
+#include "tests/support/temporary_folder.hpp"
+
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -20,6 +23,105 @@ TEST_CASE("a network's lines are node, node, stiffness, and perhaps rest length 
   CHECK_FALSE(springs[2].rest_length);
   CHECK(springs[2].exponent == -1.5);
   CHECK(springs[2].stiffness == Approx(1).epsilon(1e-15));
+}
+
+TEST_CASE("nodes of a network are x, y, z, and perhaps mass") {
+  const NetworkNodes nodes = read_nodes("x,y,z\n0,1,-2.5\n# a comment\n1e1, 0, 0\r\n", "n.csv");
+  REQUIRE(nodes.places.size() == 2);
+  CHECK(nodes.places[0] == Eigen::Vector3d(0, 1, -2.5));
+  CHECK(nodes.places[1] == Eigen::Vector3d(10, 0, 0));
+  CHECK(nodes.masses.empty());
+  const NetworkNodes heavy = read_nodes("0,0,0,2\n1,0,0,0.5\n", "n.csv");
+  REQUIRE(heavy.masses.size() == 2);
+  CHECK(heavy.masses[0] == Approx(2e-3).epsilon(1e-15)); // kg become t
+  CHECK(heavy.masses[1] == Approx(5e-4).epsilon(1e-15));
+}
+
+TEST_CASE("a mistake in a network's nodes is refused with its line and field") {
+  const auto refused = [](const std::string& line, const std::string& with, const char* first = "0,0,0\n") {
+    CAPTURE(line);
+    CHECK_THROWS_WITH(read_nodes(first + line, "n.csv"),
+                      Catch::Contains("n.csv:2: ") && Catch::Contains(with));
+  };
+  refused("1,2\n", "2 fields; a node has x, y, z (mm), and perhaps mass (kg)");
+  refused("1,2,3,4,5\n", "5 fields");
+  refused("1,,3\n", "y is missing");
+  refused("1,2,nan\n", "z is nan, must be a number from -1e9 to 1e9 (mm)");
+  refused("1e10,2,3\n", "x is 1e10");
+  refused("1,2,3,1\n", "mass is 1, must be left out as before");
+  refused("1,2,3\n", "mass is missing, must be there as before (kg)", "0,0,0,1\n");
+  refused("1,2,3,0\n", "mass is 0, must be a number from 1e-12", "0,0,0,1\n");
+  CHECK_THROWS_WITH(read_nodes("# nothing\n", "n.csv"), Catch::Contains("at least one node"));
+}
+
+namespace {
+
+/// A network of two springs in a row, without loads.
+const std::string row_case = R"(schema = 1
+name = "row"
+[body]
+shape = "network"
+nodes = "nodes.csv"
+springs = "springs.csv"
+[[fixed]]
+region = "x-"
+)";
+const std::string pull = "[[load]]\nregion = \"x+\"\nkind = \"nodal_force\"\nvalue = [1, 0, 0]\n";
+
+struct RowFolder : TemporaryFolder {
+  RowFolder() {
+    write("nodes.csv", "0,0,0\n1,0,0\n2,0,0\n");
+    write("springs.csv", "0,1,1\n1,2,1\n");
+  }
+  Scene scene(const std::string& more) const {
+    return make_scene(read_case_text(row_case + more, (path / "case.toml").string()));
+  }
+};
+
+} // namespace
+
+TEST_CASE("a network without cells has its nodes, springs and regions of nodes") {
+  const RowFolder folder;
+  const Scene scene = folder.scene(pull);
+  CHECK(scene.mesh.nodes.size() == 3);
+  CHECK(scene.mesh.cells.empty());
+  CHECK(scene.network.size() == 2);
+  CHECK(scene.mesh.lines == std::vector<std::array<int, 2>>{{0, 1}, {1, 2}});
+  REQUIRE(scene.loads.size() == 1);
+  CHECK(scene.loads[0].selection.nodes == std::vector<int>{2});
+  CHECK(scene.definition.msm.design == Design::network);
+  CHECK_FALSE(has_finite_elements(scene.definition));
+}
+
+TEST_CASE("what needs cells, faces or masses is refused for a network, with what to do instead") {
+  const RowFolder folder;
+  const auto refused = [&](const std::string& more, const std::string& with) {
+    CAPTURE(more);
+    CHECK_THROWS_WITH(folder.scene(more), Catch::Contains(with));
+  };
+  const auto measure = [](const std::string& keys) { return "[[measure]]\nname = \"m\"\nkind = " + keys; };
+  refused("[[load]]\nregion = \"x+\"\nkind = \"traction\"\nvalue = [1, 0, 0]\n",
+          "acts on faces, and a network has none; must be one of a nodal_force or a total_force");
+  refused("[[load]]\nnear = [2, 0, 0]\nradius = 1\nkind = \"nodal_force\"\nvalue = [1, 0, 0]\n",
+          "is a patch of faces, and a network has none; must be nodes");
+  refused("[[load]]\nkind = \"gravity\"\nvalue = [0, 0, -9.81]\n",
+          "has no masses, which gravity needs: give every node a fourth column, kg");
+  refused(pull + "[[mass]]\nregion = \"x+\"\nvalue = 1\n", "which [[mass]] needs");
+  refused(pull + "[dynamics]\nscheme = \"bdf2\"\nstep = 0.1\nend = 1\n", "which [dynamics] needs");
+  for (const char* kind : {"volume", "displacement_field_l2"})
+    refused(pull + measure("\"" + std::string(kind) + "\"\n"),
+            "which is one of cells, and a network has none");
+  for (const char* kind : {"stress", "strain"})
+    refused(pull + measure("\"" + std::string(kind) + "\"\ncomponent = \"xx\"\nstatistic = \"mean\"\n"),
+            "which is one of cells");
+  refused(pull + measure("\"displacement\"\nat = [1, 0, 0]\ncomponent = \"x\"\n"), "is a point of a cell");
+  refused(pull + "[material]\nmodel = \"linear_elastic\"\n", "springs of a network have no material");
+  refused(pull + "[fem]\nrefine = 1\n", "must be left out, or have a table [fem.body]");
+  refused(pull + "[msm]\ndesign = \"hybrid\"\n", "the springs are those of body.springs");
+  refused(pull + "[msm]\nmass = \"uniform\"\n", "body.nodes the masses");
+  refused(pull + "[surface]\nfile = \"a.stl\"\n", "a network has no cells for it");
+  refused(pull + "[[region_material]]\n", "a network has no cells for it");
+  refused(pull + "[[body.removed]]\nbox = [[0, 0, 0], [1, 1, 1]]\n", "pieces are removed from cells");
 }
 
 TEST_CASE("a mistake in a network is refused with its line and field") {
