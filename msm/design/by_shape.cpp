@@ -20,6 +20,8 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// Changes of stiffness, over the largest one, below which the descent ends, and its most rounds.
 constexpr double small_change = 1e-4;
 constexpr int most_rounds = 200;
+/// Raise of the energies that are fitted to, 1 each, beyond which springs cannot have the material's mean.
+constexpr double most_raised = 1;
 
 Vector6 mandel(const Vector3d& n) {
   Vector6 m;
@@ -187,7 +189,20 @@ double mean_misfit(const std::vector<NodeMisfit>& nodes) {
   return std::sqrt(sum / (6 * volume));
 }
 
-void descend(MeshSprings& springs, std::vector<NodeMisfit>& nodes) {
+/// What the energies are to be in the mean over the mesh: of the least squares, or the material's.
+enum class Mean { free, of_material };
+
+/// Finds the least squares. For the material's mean, multipliers raise what all nodes are fitted to, and each
+/// round adds to them what the mean lacks (Uzawa's method).
+/// @return false where springs cannot have that mean
+bool descend(MeshSprings& springs, std::vector<NodeMisfit>& nodes, Mean wanted) {
+  NodeMisfit mean;
+  for (const NodeMisfit& node : nodes) mean.volume += node.volume, mean.mirrored |= node.mirrored;
+  Matrix6 raised = Matrix6::Zero();
+  const auto raise = [&](const Matrix6& by) {
+    raised += by;
+    for (NodeMisfit& node : nodes) node.energies -= std::sqrt(node.volume) * by;
+  };
   for (int round = 0; round < most_rounds; ++round) {
     double change = 0, largest = 0;
     for (MeshSpring& spring : springs.all) {
@@ -201,8 +216,17 @@ void descend(MeshSprings& springs, std::vector<NodeMisfit>& nodes) {
       change = mechanics::larger(change, std::abs(by));
       largest = mechanics::larger(largest, stiffness);
     }
-    if (change <= small_change * largest) return;
+    if (change <= small_change * largest) break;
+    if (wanted == Mean::free) continue;
+    mean.energies = raised;
+    for (const NodeMisfit& node : nodes)
+      mean.energies += std::sqrt(node.volume) / mean.volume * node.energies;
+    mean.leave_what_mirrors_leave();
+    raise(-mean.energies);
+    if (!(raised.norm() <= most_raised)) return false;
   }
+  raise(-raised);
+  return true;
 }
 
 /// k l² over V mu of a cell's springs: in cubes the hybrid lattice, in tetrahedra alike for all edges.
@@ -323,10 +347,17 @@ ShapeFit fit_by_shape(const cases::Mesh& mesh, const FitRequest& request) {
   const auto middle = misfits.begin() + static_cast<std::ptrdiff_t>(misfits.size() / 2);
   std::nth_element(misfits.begin(), middle, misfits.end());
   fit.median_misfit = *middle;
-  MeshSprings springs = springs_of_mesh(mesh, start);
-  fit.cell_by_cell = mean_misfit(misfits_of(mesh, springs_of_mesh(mesh, alone), springs, request));
-  std::vector<NodeMisfit> nodes = misfits_of(mesh, springs, springs, request);
-  descend(springs, nodes);
+  const MeshSprings at_start = springs_of_mesh(mesh, start);
+  fit.cell_by_cell = mean_misfit(misfits_of(mesh, springs_of_mesh(mesh, alone), at_start, request));
+  MeshSprings springs = at_start;
+  std::vector<NodeMisfit> nodes = misfits_of(mesh, springs, at_start, request);
+  // Coarse tetrahedra lock, which the softness of the free mean offsets.
+  const Mean wanted = mesh.shape == cases::CellShape::hexahedron ? Mean::of_material : Mean::free;
+  if (!descend(springs, nodes, wanted)) {
+    springs = at_start;
+    nodes = misfits_of(mesh, springs, at_start, request);
+    descend(springs, nodes, Mean::free);
+  }
   fit.over_the_mesh = mean_misfit(nodes);
   fit.cells = cells_of(mesh, springs, moduli);
   fit.n_loose_nodes = count_loose_nodes(springs, mesh.nodes.size());

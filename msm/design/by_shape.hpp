@@ -44,12 +44,13 @@ struct ShapeFit {
 
 /// The stiffnesses k >= 0 of least
 ///   sum over nodes  V |S (C_k - C) S|² + |f_k - f|² / D,
-/// C_k the elasticity that half of every spring at the node adds, C that of Cauchy's solid with the
-/// material's mu (C12 = C44 = mu), f_k and f the forces on the node under the six strains S that the material
-/// stores equal energies for, D the mean of the node's springs over the directions, V its share of the cells'
-/// volume. Found by coordinate descent from k l² = V mu times the share of the kind of spring, with which
-/// cubes have the hybrid lattice. The volume terms are what the springs lack of the bulk modulus in the mean
-/// over the mesh, k_v = K - 5/3 mu (sum k l²)/(15 sum mu V), of tetrahedra at their nodes.
+/// with  sum over nodes  V S (C_k - C) S = 0  in hexahedra whose springs can. C_k is the elasticity that half
+/// of every spring at the node adds, C that of Cauchy's solid with the material's mu (C12 = C44 = mu), f_k
+/// and f the forces on the node under the six strains S that the material stores equal energies for, D the
+/// mean of the node's springs over the directions, V its share of the cells' volume. Found by coordinate
+/// descent from k l² = V mu times the share of the kind of spring, with which cubes have the hybrid lattice.
+/// The volume terms are what the springs lack of the bulk modulus in the mean over the mesh, k_v = K - 5/3 mu
+/// (sum k l²)/(15 sum mu V), of tetrahedra at their nodes.
 ShapeFit fit_by_shape(const cases::Mesh& mesh, const FitRequest& request);
 
 /// Springs of one stiffness in a mesh of tetrahedra, of the mean E along its axes: sum k l² = 6 E V, as Van
