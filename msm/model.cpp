@@ -6,6 +6,7 @@
 #include "msm/direct/direct_system.hpp"
 #include "msm/direct/patched_system.hpp"
 #include "msm/grid/moving_grid.hpp"
+#include "msm/real_time/real_time.hpp"
 #include "msm/relaxation/relaxation.hpp"
 
 #include <algorithm>
@@ -87,14 +88,15 @@ cases::Solution Model::solve_on_path(mechanics::EquilibriumSettings settings, co
                   grid_ ? grid::to_points(problem_, grid_->body, found.state, sharing_.get())
                         : to_points(problem_, found.state),
                   sharing_);
-  if (relaxation_) solution.from_equilibrium = cases::FromEquilibrium{settings.tolerance, {}, {}, {}, {}};
+  if (relaxation_) solution.from_equilibrium = cases::FromEquilibrium{settings.tolerance, {}, {}, {}, {}, {}};
   return solution;
 }
 
 MovingBody::MovingBody(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options)
     : problem_(make_moving_problem(scene)) {
   const SpringBody damping = damping_springs(scene, springs);
-  if (takes_multigrid(scene, springs, options.path)) {
+  const auto& real_time = scene.definition.msm.real_time;
+  if (!real_time && takes_multigrid(scene, springs, options.path)) {
     grid_ = grid::make_grid_problem(problem_, *springs.cells());
     vectors_.emplace(grid_->body);
     auto statics = grid::make_grid_system(*grid_, options.n_threads);
@@ -106,6 +108,7 @@ MovingBody::MovingBody(const cases::Scene& scene, const SpringBody& springs, con
     statics_ = make_direct_system(problem_);
     motion_ =
         make_moving_lattice(problem_, *statics_, make_inertia(scene, make_lattice(scene.mesh, damping)));
+    if (real_time) motion_->step_by(step_method(*real_time, problem_, options.n_threads));
   }
   find_entries();
 }

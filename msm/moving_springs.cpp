@@ -1,5 +1,6 @@
 #include "msm/moving_springs.hpp"
 
+#include "cases/case/error.hpp"
 #include "cases/mesh/mesh.hpp"
 #include "cases/scene/loads.hpp"
 #include "mechanics/shape_products.hpp"
@@ -117,6 +118,17 @@ void MovingSprings::external_force(double time, Vector& force) {
 void MovingSprings::set_step(const mechanics::StepTerms& terms) {
   terms_.emplace(terms);
   diagonal_ = terms.mass * entries_.mass + terms.damping * entries_.mass_damping;
+}
+
+std::optional<mechanics::NonlinearProblem::Solved> MovingSprings::solve_at(Vector& at, double load_factor) {
+  if (!method_) return std::nullopt;
+  work_.linear_iterations += method_(*terms_, diagonal_, at);
+  const double left = size(NonlinearProblem::residual(at, load_factor), at).relative;
+  if (!std::isfinite(left))
+    throw cases::SolveError(
+        "steps in real time: a node is at no finite place, or a cell is turned inside out "
+        "that has no forces then");
+  return Solved{true, 0, left};
 }
 
 void MovingSprings::residual(const Vector& at, double /*load_factor*/, mechanics::Expect expect,

@@ -168,7 +168,17 @@ class MovingSprings : public mechanics::DynamicProblem {
     springs_.move_supports(displacement, time);
   }
   void set_step(const mechanics::StepTerms& terms) override;
-  bool moves_supports() const override { return springs_.moves_supports(); }
+  /// Supports of a method of its own are where the step has them, and take nothing along.
+  bool moves_supports() const override { return !method_ && springs_.moves_supports(); }
+
+  /// Goes from `at`, whose supports are the step's, to where a method leaves the step's equation.
+  /// @param inertia  lumped mass M + damping C, N/mm; 0 on constrained entries
+  /// @return iterations
+  using StepMethod = std::function<int(const mechanics::StepTerms& terms, const Vector& inertia, Vector& at)>;
+  /// Makes steps by a method of its own from now on, in place of Newton's.
+  void step_by(StepMethod method) { method_ = std::move(method); }
+  /// @throws cases::SolveError where the method has left finite places
+  std::optional<Solved> solve_at(Vector& at, double load_factor) override;
 
   using NonlinearProblem::direction;
   using NonlinearProblem::residual;
@@ -224,6 +234,7 @@ class MovingSprings : public mechanics::DynamicProblem {
   mechanics::NonlinearProblem& springs_;
   Entries entries_;
   std::optional<mechanics::StepTerms> terms_;
+  StepMethod method_;
   Vector diagonal_;
   std::optional<Pull> pull_;
   double largest_pull_ = 0;        ///< N

@@ -64,6 +64,28 @@ struct RelaxationCounts {
 };
 SPRINGPROOF_FIELDS(RelaxationCounts, load_steps, per_step, further)
 
+/// How simulators make a step: by an amount of work that is given, whatever it leaves. All but the last go
+/// towards implicit Euler's step.
+SPRINGPROOF_ENUMERATION(
+    StepMethod,
+    xpbd,                 ///< projections on one constraint after the other (Macklin et al. 2016)
+    projective_dynamics,  ///< a factorised constant matrix for all of them (Bouaziz et al. 2014)
+    vertex_block_descent, ///< Newton's step of one node after the other (Chen et al. 2024)
+    implicit_euler,       ///< conjugate gradients for Newton's steps (Baraff and Witkin 1998)
+    symplectic_euler      ///< explicit: forces of where the step begins
+)
+
+struct RealTime {
+  StepMethod method = StepMethod::xpbd;
+  int iterations = 10;           ///< a substep; of symplectic_euler there are none
+  std::optional<int> substeps{}; ///< of a step; absent: 1, of symplectic_euler as many as are stable
+  // Of a body without [dynamics], which is to come to rest:
+  double step = 1. / 60; ///< s
+  double end = 20;       ///< s, within which it must
+  double damping = 2;    ///< mass damping, 1/s
+};
+SPRINGPROOF_FIELDS(RealTime, method, iterations, substeps, step, end, damping)
+
 struct Msm {
   Design design = Design::linear_method;
   /// Neither the design nor what belongs to one is named: tetrahedra have a default of their own.
@@ -90,11 +112,12 @@ struct Msm {
   std::optional<int> iterations_per_step; ///< conjugate gradients in a step in time, as in a simulator
   Where where;
   std::optional<RelaxationCounts> relaxation{}; ///< force_scaling; absent: it runs until equilibrium
+  std::optional<RealTime> real_time{};          ///< absent: every equation is solved
 };
 SPRINGPROOF_FIELDS(Msm, design, has_auto_design, solver, poissons_ratio, split, beta, stiffness,
                    axis_stiffness, uniform_stiffness, volume_stiffness, network, law, exponent, paths,
                    weights, strain_range, has_volume_term, accepted, mass, iterations_per_step, where,
-                   relaxation)
+                   relaxation, real_time)
 
 /// Gives a case that names no design the default of tetrahedra, hybrid, where its cells are such.
 void settle_design(Msm& msm, bool is_tetrahedron);

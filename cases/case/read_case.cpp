@@ -380,6 +380,7 @@ Case read_hard_case(const std::string& path) {
   Table root({&document, Where{path, 1, 1, ""}}, "a table");
   if (root.has("dynamics")) root.entry("dynamics").refuse("left out beside [stress]: hard cases are static");
   Case result = read_definition(root, path);
+  if (result.msm.real_time) refuse(result.msm.where, "real_time must be left out beside [stress]");
   result.stress = root.section("stress", [&](Table& table) { return read_stress(table, result.msm); });
   root.refuse_unknown_keys();
   return result;

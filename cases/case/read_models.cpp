@@ -252,6 +252,48 @@ void read_relaxation(Table& table, Msm& msm) {
            counts.all(), most);
 }
 
+bool damps_stiffness(const Case& definition) {
+  const auto& regions = definition.region_materials;
+  return definition.material_dynamics.stiffness_damping > 0 ||
+         std::any_of(regions.begin(), regions.end(),
+                     [](const auto& region) { return region.dynamics.stiffness_damping > 0; });
+}
+
+RealTime read_real_time(Table& table, const Case& definition) {
+  RealTime real_time;
+  real_time.method = table.required("method", read_name<StepMethod>);
+  table.refuse_unless(real_time.method != StepMethod::symplectic_euler, {"iterations"},
+                      "left out: method = \"symplectic_euler\" is explicit and has none");
+  real_time.iterations =
+      table.optional("iterations", WholeNumber{"a whole number from 1 to 100000", 1, 100000})
+          .value_or(real_time.iterations);
+  real_time.substeps = table.optional("substeps", up_to_1000);
+  table.refuse_unless(!definition.dynamics, {"step", "end", "damping"},
+                      "left out beside [dynamics], which has its own");
+  const Number time{"a time from 1e-7 to 1e6 (s)", [](double t) { return t >= 1e-7 && t <= 1e6; }};
+  real_time.step = table.optional("step", time).value_or(real_time.step);
+  real_time.end = table.optional("end", time).value_or(real_time.end);
+  if (!(real_time.end / real_time.step <= most_time_steps)) table.entry("end").refuse("at most 1e7 steps");
+  real_time.damping = table.optional("damping", Number{"a number, 0 or above (1/s)", is_not_negative})
+                          .value_or(real_time.damping);
+  return real_time;
+}
+
+/// Steps of implicit Euler are what the methods go towards, of points that have masses of their own.
+void check_real_time(Table& table, const Msm& msm, const Case& definition) {
+  const Entry entry = table.entry("real_time");
+  const auto& dynamics = definition.dynamics;
+  if (dynamics && dynamics->scheme.scheme != Scheme::implicit_euler)
+    refuse(dynamics->where, "scheme is \"{}\", must be \"implicit_euler\" beside msm.real_time",
+           name_of(dynamics->scheme.scheme));
+  if (!definition.material_dynamics.density) entry.refuse("left out without material.density");
+  if (msm.solver != Solver::newton) entry.refuse("left out beside another solver than \"newton\"");
+  if (msm.iterations_per_step) entry.refuse("left out beside iterations_per_step");
+  if (msm.mass == PointMass::consistent)
+    entry.refuse("left out beside mass = \"consistent\": its masses are lumped");
+  if (damps_stiffness(definition)) entry.refuse("left out beside stiffness_damping: it damps masses alone");
+}
+
 Msm read_msm(Table& table, const Case& definition) {
   const Material& material = definition.material;
   const Network* const network = std::get_if<Network>(&definition.body);
@@ -299,6 +341,9 @@ Msm read_msm(Table& table, const Case& definition) {
   table.refuse_unless(definition.dynamics.has_value(), {"iterations_per_step"},
                       "left out without [dynamics]");
   msm.iterations_per_step = table.optional("iterations_per_step", up_to_1000);
+  msm.real_time = table.section_if_there("real_time",
+                                         [&](Table& section) { return read_real_time(section, definition); });
+  if (msm.real_time) check_real_time(table, msm, definition);
   msm.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});
   const std::string needed = design_needed(msm, material);
   if (!needed.empty()) table.entry("design").refuse(needed);

@@ -66,14 +66,19 @@ struct Trajectory {
   std::optional<Vibration> slowest{}; ///< about the start; absent: it is not known, or there is none
 };
 
-/// Distance of the solution after a given number of explicit iterations from the equilibrium of the same
-/// springs, which Newton's method finds.
+/// Distance of the solution after a given number of explicit iterations, or of where steps in real time leave
+/// the body at rest, from the equilibrium of the same springs, which Newton's method finds.
 struct FromEquilibrium {
   double tolerance; ///< an equilibrium's relative residual
   std::optional<double> largest,
       root_mean_square; ///< mm, over all points' distances from where they are in equilibrium
   std::string reason;   ///< why these are not known
   std::vector<Eigen::Vector3d> displacement{}; ///< that equilibrium's, mm, one per node; empty: not known
+  struct Rest {
+    double time; ///< s of the body's own time
+    long steps;
+  };
+  std::optional<Rest> rest{}; ///< of steps in real time
 };
 
 /// Norms of a displacement over the whole body at rest, for elements with nodes between the body's nodes,

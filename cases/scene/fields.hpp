@@ -28,8 +28,9 @@ void serialize(Archive& archive, springproof::cases::Scene& scene) {
 
 SPRINGPROOF_FIELDS(springproof::cases::Fields, reaction, total_energy, has_stress, strain_energy, stress,
                    strain)
+SPRINGPROOF_FIELDS(springproof::cases::FromEquilibrium::Rest, time, steps)
 SPRINGPROOF_FIELDS(springproof::cases::FromEquilibrium, tolerance, largest, root_mean_square, reason,
-                   displacement)
+                   displacement, rest)
 SPRINGPROOF_FIELDS(springproof::cases::FieldNorms, root_mean_square, largest)
 SPRINGPROOF_FIELDS(springproof::cases::Trajectory::Body, step, displacement)
 SPRINGPROOF_FIELDS(springproof::cases::Vibration, omega, damping_ratio)

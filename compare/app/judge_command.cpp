@@ -15,7 +15,7 @@ namespace springproof::compare {
 namespace {
 
 struct JudgeOptions {
-  std::vector<std::string> files, settings, clients;
+  std::vector<std::string> files, settings, clients, methods;
   ClientBudget budget;
   int meshes = 0;
   std::string out;
@@ -27,7 +27,7 @@ std::vector<Client> clients_of(const JudgeOptions& options) {
   for (const std::string& argument : options.clients) {
     clients.push_back(client_of(argument));
     const std::string& name = clients.back().name;
-    if (name == fem_model || name == springs_model)
+    if (name == fem_model || name == springs_model || cases::value_of<cases::StepMethod>(name))
       throw cases::InputError("--client: \"" + name + "\" is the name of a row of ours; give another");
     if (std::count_if(clients.begin(), clients.end(), [&](const Client& one) { return one.name == name; }) >
         1)
@@ -40,13 +40,18 @@ std::vector<Client> clients_of(const JudgeOptions& options) {
 int run(const JudgeOptions& options) {
   if (n_mpi_ranks() > 1) throw cases::InputError("judge: runs on one rank; start it without mpirun");
   const std::vector<Client> clients = clients_of(options);
+  if (clients.empty() && options.methods.empty())
+    throw cases::InputError("judge: nothing is to be judged; give --client NAME=COMMAND or --method NAME");
+  std::vector<cases::StepMethod> methods;
+  for (const std::string& name : options.methods)
+    methods.push_back(*cases::value_of<cases::StepMethod>(name));
   const std::vector<Question> questions =
       read_questions(options.files, options.settings, {std::nullopt, options.meshes});
   check_memory(questions);
   claim_folder(options.out);
   std::vector<JudgedCase> judged;
   for (const Question& question : questions) {
-    judged.push_back(judge_clients(question.scene, clients, options.budget, options.meshes));
+    judged.push_back(judge_clients(question.scene, methods, clients, options.budget, options.meshes));
     if (!options.json) write_judged_text(std::cout, judged.back());
     if (options.out.empty()) continue;
     write_json_file(options.out + "/judged.json", judged_to_json(judged, options.budget));
@@ -65,11 +70,14 @@ void add_judge_command(CLI::App& program, Action& chosen) {
       program, chosen, "judge",
       "other programs' answers to cases, asked live, beside springs and finite elements", run);
   command->add_option("cases", options->files, "case files (TOML)")->required();
+  command->add_option(
+      "--client", options->clients,
+      "NAME=COMMAND: a program that speaks the protocol, started without a shell, confined; may "
+      "be repeated");
   command
-      ->add_option("--client", options->clients,
-                   "NAME=COMMAND: a program that speaks the protocol, started without a shell, confined; may "
-                   "be repeated")
-      ->required();
+      ->add_option("--method", options->methods,
+                   "a method of [msm] real_time that steps our springs; may be repeated")
+      ->check(CLI::IsMember(cases::all_names<cases::StepMethod>()));
   ClientBudget& budget = options->budget;
   add_step_options(*command, budget);
   command->add_option("--end", budget.model_time, "time within which a body is to come to rest, s")

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numeric>
+#include <utility>
 
 namespace springproof::compare {
 
@@ -75,6 +76,53 @@ JudgedRow springs_row(const cases::Scene& scene, const Answers& fem) {
   const Answer answer = solve_springs(scene, 1, design);
   JudgedRow row = row_of(springs_model, scene, fem, answer);
   row.milliseconds_a_step = milliseconds_a_step(answer);
+  if (const auto& from = answer.solution.from_equilibrium; from && from->rest)
+    row.rests_after = from->rest->time;
+  return row;
+}
+
+/// Gives a case steps that it may not have asked for.
+/// @return what of it they ignore
+std::vector<std::string> set_steps(cases::Case& definition, const cases::RealTime& real_time) {
+  using cases::Scheme;
+  std::vector<std::string> ignored;
+  definition.msm.real_time = real_time;
+  definition.msm.solver = cases::Solver::newton;
+  definition.msm.iterations_per_step.reset();
+  definition.msm.relaxation.reset();
+  if (definition.msm.mass == cases::PointMass::consistent) {
+    definition.msm.mass = cases::PointMass::cells;
+    if (definition.dynamics) ignored.push_back("masses that are not lumped");
+  }
+  if (definition.dynamics) {
+    Scheme& scheme = definition.dynamics->scheme.scheme;
+    if (scheme != Scheme::implicit_euler) ignored.push_back("scheme " + cases::name_of(scheme));
+    scheme = Scheme::implicit_euler;
+  }
+  double damping = std::exchange(definition.material_dynamics.stiffness_damping, 0);
+  for (cases::RegionMaterial& region : definition.region_materials)
+    damping += std::exchange(region.dynamics.stiffness_damping, 0);
+  if (damping > 0) ignored.push_back("stiffness_damping");
+  return ignored;
+}
+
+JudgedRow stepped_row(cases::Scene scene, const Answers& fem, const cases::RealTime& real_time) {
+  const std::string name = cases::name_of(real_time.method);
+  const std::vector<std::string> ignored = set_steps(scene.definition, real_time);
+  JudgedRow row{name};
+  try {
+    if (!scene.definition.material_dynamics.density)
+      throw cases::InputError("the case has no material.density, which steps in time need");
+    row = springs_row(scene, fem);
+  } catch (const cases::InputError& error) {
+    row.failure = error.what();
+  }
+  row.model = name;
+  Json settings{{"iterations", real_time.iterations}, {"substeps", real_time.substeps}};
+  if (real_time.method == cases::StepMethod::symplectic_euler) settings.erase("iterations");
+  if (!scene.definition.dynamics) settings.update({{"step", real_time.step}, {"damping", real_time.damping}});
+  row.client = Introduction{"springproof", program_version(), cases::name_of(real_time.method),
+                            settings.dump(), ignored};
   return row;
 }
 
@@ -129,10 +177,27 @@ JudgedRow Judge::ask(const Client& client, const ClientBudget& budget) const {
   return row;
 }
 
-JudgedCase judge_clients(const cases::Scene& scene, const std::vector<Client>& clients,
-                         const ClientBudget& budget, int meshes) {
+JudgedRow Judge::step(const cases::RealTime& real_time, const ClientBudget& budget) const {
+  JudgedRow row = stepped_row(scene_, fem_, real_time);
+  say_whether_in_time(row, scene_, budget);
+  return row;
+}
+
+cases::RealTime real_time_in(cases::StepMethod method, const ClientBudget& budget) {
+  cases::RealTime real_time;
+  real_time.method = method;
+  if (budget.iterations > 0) real_time.iterations = budget.iterations;
+  real_time.step = budget.step;
+  real_time.end = budget.model_time;
+  return real_time;
+}
+
+JudgedCase judge_clients(const cases::Scene& scene, const std::vector<cases::StepMethod>& methods,
+                         const std::vector<Client>& clients, const ClientBudget& budget, int meshes) {
   const Judge judge(scene, meshes);
   JudgedCase judged = judge.own(budget);
+  for (const cases::StepMethod method : methods)
+    judged.rows.push_back(judge.step(real_time_in(method, budget), budget));
   for (const Client& client : clients) judged.rows.push_back(judge.ask(client, budget));
   return judged;
 }

@@ -11,10 +11,11 @@ namespace springproof::compare {
 
 inline const std::string fem_model = "finite elements", springs_model = "springs"; ///< names of our own rows
 
-/// One way to answer a case: the finite elements on the case's mesh, our springs, or a client.
+/// One way to answer a case: the finite elements on the case's mesh, our springs, these stepped by a method
+/// of simulators, or a client.
 struct JudgedRow {
-  std::string model;                    ///< "finite elements", "springs" or the client's name
-  std::optional<Introduction> client{}; ///< a client's that came to it
+  std::string model;                    ///< "finite elements", "springs", the method's or the client's name
+  std::optional<Introduction> client{}; ///< a method's, or a client's that came to it
   std::string command{};                ///< a client's
   std::string chosen{};                 ///< in a league: "defaults", or how the settings were found
   std::string failure{};                ///< why there is no answer; empty where there is one
@@ -51,15 +52,20 @@ class Judge {
   /// @throws cases::InputError when there are no springs
   JudgedCase own(const ClientBudget& budget) const;
   JudgedRow ask(const Client& client, const ClientBudget& budget) const;
+  /// Our springs, stepped by a method: what it ignores of the case is said, as a client's.
+  JudgedRow step(const cases::RealTime& real_time, const ClientBudget& budget) const;
 
  private:
   cases::Scene scene_;
   Answers fem_;
 };
 
-/// Own rows, and one for each client.
-JudgedCase judge_clients(const cases::Scene& scene, const std::vector<Client>& clients,
-                         const ClientBudget& budget, int meshes);
+/// Steps by a method within a budget, but for its substeps.
+cases::RealTime real_time_in(cases::StepMethod method, const ClientBudget& budget);
+
+/// Own rows, and one for each method and client.
+JudgedCase judge_clients(const cases::Scene& scene, const std::vector<cases::StepMethod>& methods,
+                         const std::vector<Client>& clients, const ClientBudget& budget, int meshes);
 
 Json row_to_json(const JudgedRow& row);
 /// Warnings of a row, what its client says of itself, and why there is no answer.

@@ -19,12 +19,16 @@ namespace {
 
 /// Settings of a client beside its defaults.
 struct Settings {
-  int iterations;
-  std::vector<std::string> options;
+  int iterations = 0, substeps = 0; ///< 0: the default
+  std::vector<std::string> options{};
+
+  bool are_defaults() const { return iterations == 0 && substeps == 0 && options.empty(); }
 };
 
 std::string text_of(const Settings& settings) {
   std::string text = settings.iterations > 0 ? fmt::format("{} iterations", settings.iterations) : "";
+  if (settings.substeps > 0)
+    text += fmt::format("{}{} substeps", text.empty() ? "" : ", ", settings.substeps);
   for (const std::string& word : settings.options) text += (text.empty() ? "" : " ") + word;
   return text;
 }
@@ -32,8 +36,9 @@ std::string text_of(const Settings& settings) {
 std::vector<Settings> settings_of(const LeagueClient& client) {
   std::vector<Settings> all;
   for (const int iterations : client.iterations)
-    for (const auto& options : client.options)
-      if (iterations > 0 || !options.empty()) all.push_back({iterations, options});
+    for (const int substeps : client.substeps)
+      for (const auto& options : client.options)
+        if (const Settings one{iterations, substeps, options}; !one.are_defaults()) all.push_back(one);
   return all;
 }
 
@@ -71,15 +76,21 @@ std::string missing(const LeagueClient& client) {
 std::vector<JudgedRow> rows_of(const Judge& judge, const LeagueClient& client, const League& league,
                                const std::function<void(const std::string&)>& tell) {
   const auto ask = [&](const Settings& settings) {
-    tell(settings.iterations > 0 || !settings.options.empty() ? client.name + ", " + text_of(settings)
-                                                              : client.name);
+    tell(settings.are_defaults() ? client.name : client.name + ", " + text_of(settings));
     Client asked{client.name, client.words};
     asked.words.insert(asked.words.end(), settings.options.begin(), settings.options.end());
     ClientBudget budget = league.budget;
     budget.iterations = settings.iterations;
+    if (client.method) {
+      cases::RealTime real_time = real_time_in(*client.method, budget);
+      if (settings.substeps > 0) real_time.substeps = settings.substeps;
+      JudgedRow row = judge.step(real_time, budget);
+      row.model = client.name;
+      return row;
+    }
     return judge.ask(asked, budget);
   };
-  std::vector<JudgedRow> rows{ask({0, {}})};
+  std::vector<JudgedRow> rows{ask({})};
   rows.front().chosen = "defaults";
   const std::vector<Settings> all = settings_of(client);
   if (all.empty()) return rows;

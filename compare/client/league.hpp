@@ -10,10 +10,12 @@ namespace springproof::compare {
 
 struct LeagueClient {
   std::string name;
-  std::vector<std::string> words; ///< its command
+  std::vector<std::string> words; ///< its command; none: a method of ours
+  std::optional<cases::StepMethod> method{};
   std::vector<std::string> needs; ///< files or folders without which it is skipped
-  // What is tried beside the defaults: every pair of these.
+  // What is tried beside the defaults: all combinations of these.
   std::vector<int> iterations;                   ///< 0: the client's default
+  std::vector<int> substeps;                     ///< a method's; 0: its default
   std::vector<std::vector<std::string>> options; ///< words behind the command
 };
 

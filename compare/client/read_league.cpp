@@ -19,6 +19,13 @@ std::vector<std::string> read_texts(const cases::Entry& entry) {
   return texts;
 }
 
+std::vector<int> read_counts(const cases::Entry& entry) {
+  const cases::WholeNumber count{"a whole number from 0 to 1000000", 0, 1'000'000};
+  std::vector<int> counts;
+  for (const cases::Entry& one : entry.elements("a list of whole numbers")) counts.push_back(count(one));
+  return counts.empty() ? std::vector<int>{0} : counts;
+}
+
 /// Words of a command, those that name files of the folder by their paths. No words are none.
 std::vector<std::string> words_in(const fs::path& folder, const std::string& command) {
   if (command.find_first_not_of(" \t\n") == std::string::npos) return {};
@@ -32,17 +39,18 @@ std::vector<std::string> words_in(const fs::path& folder, const std::string& com
 LeagueClient read_client(cases::Table& table, const fs::path& folder) {
   LeagueClient client;
   client.name = table.required("name", cases::read_text);
-  client.words = words_in(folder, table.required("command", cases::read_text));
-  if (client.words.empty()) table.entry("command").refuse("a command");
+  client.method = table.optional("method", cases::read_name<cases::StepMethod>);
+  table.refuse_unless(!client.method, {"command", "needs", "options"},
+                      "left out beside method, which is ours");
+  table.refuse_unless(client.method.has_value(), {"substeps"}, "left out without method");
+  if (!client.method) {
+    client.words = words_in(folder, table.required("command", cases::read_text));
+    if (client.words.empty()) table.entry("command").refuse("a command");
+  }
   for (const std::string& file : table.optional("needs", read_texts).value_or(std::vector<std::string>{}))
     client.needs.push_back((folder / file).string());
-  table.optional("iterations", [&](const cases::Entry& entry) {
-    const cases::WholeNumber iterations{"a whole number from 0 to 1000000", 0, 1'000'000};
-    for (const cases::Entry& one : entry.elements("a list of whole numbers"))
-      client.iterations.push_back(iterations(one));
-    return true;
-  });
-  if (client.iterations.empty()) client.iterations = {0};
+  client.iterations = table.optional("iterations", read_counts).value_or(std::vector<int>{0});
+  client.substeps = table.optional("substeps", read_counts).value_or(std::vector<int>{0});
   for (const std::string& words : table.optional("options", read_texts).value_or(std::vector<std::string>{}))
     client.options.push_back(words_in(folder, words));
   if (client.options.empty()) client.options = {{}};

@@ -37,6 +37,10 @@ PulledBody::PulledBody(const cases::Scene& scene, const PullSettings& settings)
                                         "\"bdf2\": a pointer that jumps from step to "
                                         "step drives on what a scheme does not damp",
                                         scene.definition.file, cases::name_of(scheme)));
+  if (scene.definition.msm.real_time)
+    throw cases::InputError(scene.definition.msm.where,
+                            "real_time must be left out of interact: its methods know no pull; "
+                            "iterations_per_step bounds a step");
   const msm::DesignResult design = design_for(scene);
   const msm::ModelOptions options{msm::Path::automatic, settings.n_threads, {}, {}};
   body_ = std::make_unique<msm::MovingBody>(scene, design.springs, options);

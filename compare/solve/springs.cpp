@@ -9,6 +9,7 @@
 #include "mechanics/larger.hpp"
 #include "msm/model.hpp"
 #include "msm/moving_springs.hpp"
+#include "msm/real_time/real_time.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -149,6 +150,7 @@ cases::Scene with_design(cases::Scene scene, cases::Design design) {
   cases::Msm other;
   other.design = design;
   other.accepted = own.accepted;
+  other.real_time = own.real_time;
   other.mass = own.mass;
   other.where = own.where;
   cases::settle_law(other, cases::materials_of(scene.definition),
@@ -236,9 +238,12 @@ namespace {
 /// Describes the distance in one sentence.
 std::string describe_distance(const cases::Solution& solution) {
   const cases::FromEquilibrium& from = *solution.from_equilibrium;
-  const std::string state = fmt::format("{} after {} iterations: residual {:.2e}, ",
-                                        solution.is_equilibrium() ? "in equilibrium" : "NOT IN EQUILIBRIUM",
-                                        solution.relaxation_iterations, solution.residual);
+  const std::string rest =
+      from.rest ? fmt::format("at rest after {:.3g} s, {} steps; ", from.rest->time, from.rest->steps) : "";
+  const std::string state =
+      rest + fmt::format("{} after {} iterations: residual {:.2e}, ",
+                         solution.is_equilibrium() ? "in equilibrium" : "NOT IN EQUILIBRIUM",
+                         solution.relaxation_iterations, solution.residual);
   if (!from.largest) return state + "the distance from equilibrium is not known: " + from.reason;
   return state +
          fmt::format("{:.3g} mm at most and {:.3g} mm in the root mean square from the equilibrium of the "
@@ -254,6 +259,7 @@ void add_distance(const cases::Scene& scene, const msm::SpringBody& springs, int
   cases::Scene in_equilibrium = scene;
   in_equilibrium.definition.msm.solver = cases::Solver::newton;
   in_equilibrium.definition.msm.relaxation.reset();
+  in_equilibrium.definition.msm.real_time.reset();
   Answer newton = solve_side(
       [&] {
         return msm::Model(in_equilibrium, springs, {msm::Path::automatic, n_threads});
@@ -280,24 +286,38 @@ Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm
   if (scene.definition.dynamics)
     return solve_side([&] { return *(design = design_for(scene)); },
                       [&](const msm::DesignResult& designed) {
-                        const std::optional<int> enough = scene.definition.msm.iterations_per_step;
-                        return msm::follow(scene, designed.springs, {msm::Path::automatic, n_threads, {}, {}},
-                                           enough ? mechanics::in_real_time(*enough)
-                                                  : mechanics::IntegrationSettings{});
+                        const cases::Msm& given = scene.definition.msm;
+                        return msm::follow(
+                            scene, designed.springs, {msm::Path::automatic, n_threads, {}, {}},
+                            given.real_time
+                                ? msm::in_substeps(scene, designed.springs, scene.definition.dynamics->step)
+                            : given.iterations_per_step ? mechanics::in_real_time(*given.iterations_per_step)
+                                                        : mechanics::IntegrationSettings{});
                       });
   const auto& stress = scene.definition.stress;
   const mechanics::EquilibriumSettings settings = limited(scene.definition);
   msm::SpringBody springs;
-  Answer answer = solve_side(
-      [&] {
-        design = design_for(scene);
-        springs = springs_as_solved(scene, *design);
-        return msm::Model(scene, springs, {msm::Path::automatic, n_threads});
-      },
-      [&](msm::Model& model) {
-        return with_fields(scene, springs,
-                           model.solve(settings, stress ? start_points(*stress, scene.mesh) : msm::Points{}));
-      });
+  const auto take_springs = [&] {
+    design = design_for(scene);
+    springs = springs_as_solved(scene, *design);
+    return springs;
+  };
+  Answer answer =
+      scene.definition.msm.real_time
+          ? solve_side(take_springs,
+                       [&](const msm::SpringBody& body) {
+                         return with_fields(scene, body, msm::come_to_rest(scene, body, n_threads));
+                       })
+          : solve_side(
+                [&] {
+                  take_springs();
+                  return msm::Model(scene, springs, {msm::Path::automatic, n_threads});
+                },
+                [&](msm::Model& model) {
+                  return with_fields(
+                      scene, springs,
+                      model.solve(settings, stress ? start_points(*stress, scene.mesh) : msm::Points{}));
+                });
   hold_against_loads(scene, answer,
                      [&](const cases::Solution& solution) { msm::fields(scene, springs, solution); });
   if (answer.solution.from_equilibrium) { // outside of the time that the iterations took

@@ -63,6 +63,9 @@ bool is_stable(const cases::Solution& springs) {
 
 std::optional<double> milliseconds_a_step(const Answer& answer) {
   const auto& motion = answer.solution.trajectory;
+  const auto& from = answer.solution.from_equilibrium;
+  if (answer.converged() && from && from->rest)
+    return 1e3 * answer.solve_seconds / static_cast<double>(from->rest->steps);
   if (!answer.converged() || !motion || motion->time.size() < 2) return std::nullopt;
   return 1e3 * answer.solve_seconds / static_cast<double>(motion->time.size() - 1);
 }

@@ -204,6 +204,8 @@ Plan plan_sweep(const cases::Case& definition, Extent extent) {
     throw cases::InputError(definition.msm.where,
                             "relaxation_steps, relaxation_iterations and further_iterations must "
                             "be left out of a sweep, which is of equilibria");
+  if (definition.msm.real_time)
+    throw cases::InputError(definition.msm.where, "real_time must be left out of a sweep of equilibria");
   for (const cases::Measure& measure : definition.measures)
     if (cases::is_of_fields(measure.kind))
       throw cases::InputError(measure.where,

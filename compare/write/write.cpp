@@ -138,10 +138,12 @@ Json side_to_json(const Answer& answer) {
   const cases::Solution& s = answer.solution;
   Json from_equilibrium;
   if (const auto& from = s.from_equilibrium)
-    from_equilibrium = {{"is_equilibrium", s.is_equilibrium()},
-                        {"largest_mm", from->largest},
-                        {"root_mean_square_mm", from->root_mean_square},
-                        {"reason", from->reason}};
+    from_equilibrium = {
+        {"is_equilibrium", s.is_equilibrium()},
+        {"largest_mm", from->largest},
+        {"root_mean_square_mm", from->root_mean_square},
+        {"reason", from->reason},
+        {"rest", from->rest ? Json{{"seconds", from->rest->time}, {"steps", from->rest->steps}} : Json()}};
   Json steps;
   if (const auto& motion = s.trajectory)
     steps = {{"taken", motion->time.size() - 1},

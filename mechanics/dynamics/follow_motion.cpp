@@ -3,7 +3,11 @@
 #include "cases/case/case.hpp"
 #include "cases/scene/scene.hpp"
 #include "mechanics/dynamics/slowest_vibration.hpp"
+#include "mechanics/larger.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
 #include <utility>
 
 namespace springproof::mechanics {
@@ -55,7 +59,8 @@ FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, 
   record.add(0, 0, motion.now().displacement);
   try {
     for (int step = 1; step <= dynamics.n_steps(); ++step) {
-      motion.advance(step * dynamics.step);
+      for (int part = 1; part <= settings.substeps; ++part)
+        motion.advance((step - 1 + part / double(settings.substeps)) * dynamics.step);
       record.add(step, motion.now().time, motion.now().displacement);
     }
   } catch (const cases::SolveError& error) {
@@ -69,6 +74,45 @@ FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, 
   followed.work.work = body.problem.work(); // excludes what follows
   followed.trajectory.slowest = slowest_vibration(body.problem, begin, dynamics.end);
   return followed;
+}
+
+CameToRest come_to_rest(const BodyInTime& body, Vector start, double step, double end,
+                        const IntegrationSettings& settings) {
+  constexpr double watched = 0.5, part_moved = 1e-4; // s
+  cases::TimeScheme scheme;
+  scheme.scheme = cases::Scheme::implicit_euler;
+  Vector at_rest = Vector::Zero(start.size());
+  std::vector<Eigen::Vector3d> before = body.displacement(start);
+  TimeIntegrator motion(body.problem, scheme, {0, std::move(start), std::move(at_rest), {}}, settings);
+  const long every = std::max(1L, std::lround(watched / step)), last = std::lround(end / step);
+  double moved = 0, largest = 0;
+  for (long n = 1; n <= last; ++n) {
+    for (int part = 1; part <= settings.substeps; ++part)
+      motion.advance((double(n) - 1 + part / double(settings.substeps)) * step);
+    if (n % every != 0) continue;
+    const std::vector<Eigen::Vector3d> now = body.displacement(motion.now().displacement);
+    moved = largest = 0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      moved = larger(moved, (now[i] - before[i]).norm());
+      largest = larger(largest, now[i].norm());
+    }
+    if (moved <= part_moved * largest) {
+      CameToRest rest{motion.now().displacement, motion.now().time, n, motion.work()};
+      rest.work.load_reached = 1;
+      rest.work.n_unknowns = body.problem.n_unknowns();
+      rest.work.work = body.problem.work();
+      return rest;
+    }
+    before = now;
+  }
+  Equilibrium work = motion.work();
+  work.work = body.problem.work();
+  throw cases::SolveError(
+      fmt::format("does not come to rest within {:g} s: in the last {:.3g} s a node moved by "
+                  "{:.3g} mm, where the largest displacement is {:.3g} mm; give more "
+                  "iterations, substeps, damping or time",
+                  end, double(every) * step, moved, largest),
+      to_solution(work));
 }
 
 cases::Solution follow_motion(const cases::Scene& scene, DynamicProblem& problem, const StateOnMesh& on_mesh,

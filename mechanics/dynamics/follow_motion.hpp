@@ -28,7 +28,22 @@ struct FollowedMotion {
 FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, Vector start,
                              const IntegrationSettings& settings = {});
 
-/// The same over the ranks that share the states of a model. Collective.
+/// Where a body without history comes to rest.
+struct CameToRest {
+  Vector state;
+  double time; ///< s
+  long steps;
+  Equilibrium work; ///< totals of all steps; the residual is the last step's
+};
+
+/// Steps until the nodes have stayed within 1e-4 of the largest displacement for half a second, as clients
+/// do.
+/// @param step, end  s: of each step, and within which it must come to rest
+/// @throws cases::SolveError when it does not, or when a step's equation is not solved
+CameToRest come_to_rest(const BodyInTime& body, Vector start, double step, double end,
+                        const IntegrationSettings& settings);
+
+/// The same as follow_motion() above, over the ranks that share the states of a model. Collective.
 /// @param state  where the motion starts; afterwards where it ends
 /// @return the end of the motion, which the ranks share, and the trajectory, which each of them has
 cases::Solution follow_motion(const cases::Scene& scene, DynamicProblem& problem, const StateOnMesh& on_mesh,

@@ -16,6 +16,7 @@ struct IntegrationSettings {
   EquilibriumSettings newton =
       nearly_linear();   ///< tolerance, iteration limits and should_stop hold for each step
   int max_halvings = 10; ///< limit per advance(); a step whose equation is not solved is halved
+  int substeps = 1;      ///< that follow_motion() makes of a step
   /// Limit on a step's linear iterations, in all; see in_real_time().
   std::optional<int> enough_linear_iterations = {};
 

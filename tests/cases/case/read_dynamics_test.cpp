@@ -285,3 +285,52 @@ TEST_CASE("loads that are 0 until the end, and motions, are refused") {
   CHECK_THROWS_WITH(read_text(still), Catch::Contains("nothing would move"));
   CHECK_NOTHROW(read_text(replaced(still, "[2.5, 0], [2.5, 1]", "[1.9, 0], [1.9, 1]")));
 }
+
+TEST_CASE("steps in real time are read") {
+  const std::string density = "poissons_ratio = 0.35\ndensity = 1000";
+  const std::string still = replaced(good_case, "poissons_ratio = 0.35", density);
+  CHECK_FALSE(read_text(still).msm.real_time);
+  const auto real_time =
+      read_text(replaced(still, "split = 0.8", "split = 0.8\nreal_time = { method = 'xpbd' }")).msm.real_time;
+  REQUIRE(real_time);
+  CHECK(real_time->method == StepMethod::xpbd);
+  CHECK(real_time->iterations == 10);
+  CHECK_FALSE(real_time->substeps);
+  CHECK(real_time->step == 1. / 60);
+  CHECK(real_time->end == 20);
+  CHECK(real_time->damping == 2);
+  const Case all = read_text(replaced(still, "split = 0.8",
+                                      "split = 0.8\nreal_time = { method = 'implicit_euler', iterations = 3, "
+                                      "substeps = 4, step = 0.01, end = 2, damping = 0 }"));
+  CHECK(all.msm.real_time->iterations == 3);
+  CHECK(all.msm.real_time->substeps == 4);
+  CHECK(all.msm.real_time->step == 0.01);
+  CHECK(all.msm.real_time->end == 2);
+  CHECK(all.msm.real_time->damping == 0);
+}
+
+TEST_CASE("steps in real time are refused where they have no meaning") {
+  const auto with = [](const std::string& keys, const std::string& more = "") {
+    return replaced(replaced(good_case, "poissons_ratio = 0.35", "poissons_ratio = 0.35\ndensity = 1000"),
+                    "split = 0.8", "split = 0.8\n" + more + "real_time = { " + keys + " }");
+  };
+  const auto refused = [&](const std::string& text, const std::string& key, const std::string& allowed) {
+    CAPTURE(text);
+    CHECK_THROWS_WITH(read_text(text), Catch::Contains(key) && Catch::Contains(allowed));
+  };
+  refused(with("method = 'verlet'"), "msm.real_time.method", "vertex_block_descent");
+  refused(with("iterations = 3"), "msm.real_time.method", "missing");
+  refused(with("method = 'xpbd', iterations = 0"), "msm.real_time.iterations", "from 1");
+  refused(with("method = 'xpbd', steps = 3"), "steps", "msm.real_time");
+  refused(with("method = 'symplectic_euler', iterations = 3"), "msm.real_time.iterations", "explicit");
+  refused(with("method = 'xpbd', step = 1e-6, end = 1e5"), "msm.real_time.end", "1e7 steps");
+  refused(with("method = 'xpbd'", "solver = 'fire'\n"), "msm.real_time", "solver");
+  refused(with("method = 'xpbd'", "mass = 'consistent'\n"), "msm.real_time", "consistent");
+  refused(replaced(good_case, "split = 0.8", "split = 0.8\nreal_time = { method = 'xpbd' }"), "msm.real_time",
+          "material.density");
+  const auto in_motion = [](const std::string& keys) {
+    return replaced(dynamic_case, "mass = 'uniform'", "mass = 'uniform'\nreal_time = { " + keys + " }");
+  };
+  refused(in_motion("method = 'xpbd'"), "dynamics", "implicit_euler");
+  refused(in_motion("method = 'xpbd', step = 0.1"), "msm.real_time.step", "[dynamics]");
+}

@@ -86,3 +86,42 @@ TEST_CASE("a league's file is refused with the place of what is wrong") {
   CHECK_THROWS_WITH(compare::read_league(league_in(folder, "secnds = 3\n")), Catch::Contains("secnds"));
   CHECK_THROWS_WITH(compare::read_league((folder.path / "none.toml").string()), Catch::Contains("none.toml"));
 }
+
+TEST_CASE("a league has a method of ours beside its clients, and says what it ignores") {
+  const TemporaryFolder folder;
+  league_in(folder);
+  const auto league_of = [&](const std::string& keys) {
+    const std::string file = (folder.path / "league.toml").string();
+    std::ofstream(file) << "cases = [\"block.toml\"]\n[[client]]\nname = \"ours\"\n" << keys;
+    return compare::read_league(file);
+  };
+  CHECK_THROWS_WITH(league_of("method = \"xpbd\"\ncommand = \"mine\"\n"),
+                    Catch::Contains("client[0].command"));
+  CHECK_THROWS_WITH(league_of("command = \"mine\"\nsubsteps = [1]\n"), Catch::Contains("client[0].substeps"));
+  const compare::League league =
+      league_of("method = \"vertex_block_descent\"\niterations = [1, 40]\nsubsteps = [0, 2]\n");
+  const auto rows = [&] { return compare::play(league, [](const std::string&) {}).cases.at(0).rows; };
+  CHECK_THAT(rows().at(2).failure, Catch::Contains("material.density"));
+
+  std::ofstream(folder.path / "block.toml", std::ios::app)
+      << "[dynamics]\nscheme = \"newmark\"\nstep = 0.001\nend = 0.005\n[msm]\nmass = \"consistent\"\n";
+  std::ostringstream text;
+  text << std::ifstream(folder.path / "block.toml").rdbuf();
+  const std::string ratio = "poissons_ratio = 0.25\n";
+  std::string moving = text.str();
+  moving.replace(moving.find(ratio), ratio.size(), ratio + "density = 1000\n");
+  moving.replace(moving.find("accuracy = \"none\""), 17, "");
+  std::ofstream(folder.path / "block.toml") << moving;
+  const auto stepped = rows();
+  REQUIRE(stepped.size() == 4); // finite elements, springs, and two of the method
+  for (const std::size_t row : {2, 3}) {
+    CHECK(stepped[row].status() == "answered");
+    CHECK(stepped[row].model == "ours");
+    REQUIRE(stepped[row].client);
+    CHECK(stepped[row].client->unsupported ==
+          std::vector<std::string>{"masses that are not lumped", "scheme newmark"});
+    CHECK(stepped[row].milliseconds_a_step);
+  }
+  CHECK_THAT(stepped[3].chosen, Catch::StartsWith("best of 5: "));
+  CHECK(std::abs(*stepped[3].worst) <= std::abs(*stepped[2].worst));
+}

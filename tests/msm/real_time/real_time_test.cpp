@@ -1,0 +1,206 @@
+#include "msm/real_time/real_time.hpp"
+
+#include "cases/case/error.hpp"
+#include "mechanics/larger.hpp"
+#include "msm/real_time/colours.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using namespace springproof;
+using cases::StepMethod;
+using Eigen::Vector3d;
+
+namespace {
+
+const msm::CellStiffness stiffness{0.2, 0.1, 0.3, 0.05}; // N/mm, MPa
+
+/// A bar of water of 3 x 2 x 2 cells, held at one end, under an acceleration that swings it.
+/// @param acceleration  m/s²
+cases::Scene bar(StepMethod method, int iterations, const Vector3d& acceleration) {
+  cases::Case definition;
+  definition.body = cases::Box{{30, 20, 20}, {3, 2, 2}};
+  definition.fixed.push_back({cases::Region{"x-"}, {true, true, true}});
+  definition.material_dynamics = {1000., 1, 0};
+  cases::Scene scene = cases::make_scene(definition);
+  scene.loads.push_back({{}, {{}, cases::loads::Gravity{acceleration}}});
+  scene.definition.dynamics.emplace();
+  scene.definition.dynamics->scheme.scheme = cases::Scheme::implicit_euler;
+  scene.definition.dynamics->step = 0.01;
+  scene.definition.dynamics->end = 0.03;
+  scene.definition.msm.real_time = cases::RealTime{method, iterations, {}, 0.01, 20, 5};
+  return scene;
+}
+
+msm::Points end_of(const cases::Scene& scene, int n_threads = 1) {
+  const auto settings = scene.definition.msm.real_time
+                            ? msm::in_substeps(scene, {stiffness}, scene.definition.dynamics->step)
+                            : mechanics::IntegrationSettings{};
+  return msm::follow(scene, {stiffness}, {msm::Path::automatic, n_threads, {}, {}}, settings).displacement;
+}
+
+/// Largest difference relative to the largest displacement.
+double apart(const msm::Points& a, const msm::Points& b) {
+  double difference = 0, size = 0;
+  for (std::size_t p = 0; p < a.size(); ++p) {
+    difference = mechanics::larger(difference, (a[p] - b[p]).norm());
+    size = mechanics::larger(size, b[p].norm());
+  }
+  return difference / size;
+}
+
+/// By Newton's method.
+msm::Points solved(cases::Scene scene) {
+  scene.definition.msm.real_time.reset();
+  return end_of(scene);
+}
+
+const Vector3d sideways(0, 0, -9.81), lengthwise(9.81, 0, 0);
+
+} // namespace
+
+TEST_CASE("a method comes to implicit Euler's motion as iterations grow, each as much nearer",
+          "[verification]") {
+  struct Rate {
+    StepMethod method;
+    std::array<int, 3> iterations; // in equal steps
+  };
+  for (const auto& [method, iterations] : {Rate{StepMethod::projective_dynamics, {20, 60, 100}},
+                                           Rate{StepMethod::vertex_block_descent, {20, 60, 100}},
+                                           Rate{StepMethod::implicit_euler, {5, 10, 15}}}) {
+    CAPTURE(cases::name_of(method));
+    const msm::Points exact = solved(bar(method, 1, sideways));
+    std::array<double, 3> error{};
+    for (std::size_t n = 0; n < 3; ++n) error[n] = apart(end_of(bar(method, iterations[n], sideways)), exact);
+    CAPTURE(error[0], error[1], error[2]);
+    CHECK(error[1] < error[0] / 2);
+    CHECK(error[2] < error[1] / 2);
+    CHECK(apart(end_of(bar(method, 3000, sideways)), exact) < 1e-7); // Newton's own tolerance leaves 1e-8
+  }
+}
+
+TEST_CASE("XPBD comes to implicit Euler's motion but for the turning of its gradients", "[verification]") {
+  const auto left = [](double part) {
+    const Vector3d load = part * sideways;
+    return apart(end_of(bar(StepMethod::xpbd, 3000, load)), solved(bar(StepMethod::xpbd, 1, load)));
+  };
+  const double whole = left(1), tenth = left(0.1);
+  CAPTURE(whole, tenth);
+  CHECK(tenth < whole / 5); // of first order in the motion
+  CHECK(left(1e-5) < 1e-5);
+  const msm::Points limit = end_of(bar(StepMethod::xpbd, 3000, sideways));
+  std::array<double, 3> error{};
+  for (std::size_t n = 0; n < 3; ++n)
+    error[n] = apart(end_of(bar(StepMethod::xpbd, 200 + 200 * int(n), sideways)), limit);
+  CAPTURE(error[0], error[1], error[2]);
+  CHECK(error[1] < error[0] / 2);
+  CHECK(error[2] < error[1] / 2);
+}
+
+TEST_CASE("symplectic Euler comes to the motion as its substeps grow, of first order", "[verification]") {
+  // A converged motion: Newmark's method with short steps.
+  cases::Scene fine = bar(StepMethod::symplectic_euler, 1, sideways);
+  fine.definition.msm.real_time.reset();
+  fine.definition.dynamics->scheme = {};
+  fine.definition.dynamics->step = 1e-5;
+  fine.definition.dynamics->end = 0.02;
+  const msm::Points exact = end_of(fine);
+  std::array<double, 3> error{};
+  for (std::size_t n = 0; n < 3; ++n) {
+    cases::Scene scene = bar(StepMethod::symplectic_euler, 1, sideways);
+    scene.definition.msm.real_time->substeps = 100 << n;
+    scene.definition.dynamics->end = 0.02;
+    error[n] = apart(end_of(scene), exact);
+  }
+  CAPTURE(error[0], error[1], error[2]);
+  CHECK(error[0] / error[1] == Approx(2).margin(0.3));
+  CHECK(error[1] / error[2] == Approx(2).margin(0.3));
+}
+
+TEST_CASE("symplectic Euler takes as many substeps as are stable, and diverges with few", "[verification]") {
+  cases::Scene scene = bar(StepMethod::symplectic_euler, 1, lengthwise);
+  scene.definition.dynamics->end = 1;
+  CHECK(apart(end_of(scene), solved(scene)) < 0.5);
+  scene.definition.msm.real_time->substeps = 1;
+  CHECK_THROWS_AS(end_of(scene), cases::SolveError);
+}
+
+TEST_CASE("the answer of a method is the same to the bit on any number of threads", "[verification]") {
+  for (const std::string& name : cases::all_names<StepMethod>()) {
+    CAPTURE(name);
+    const StepMethod method = *cases::value_of<StepMethod>(name);
+    const cases::Scene scene = bar(method, 7, sideways);
+    CHECK(end_of(scene, 3) == end_of(scene, 1));
+  }
+}
+
+TEST_CASE("forces of a method's steps keep the momentum of a free body", "[verification]") {
+  for (const std::string& name : cases::all_names<StepMethod>()) {
+    CAPTURE(name);
+    const StepMethod method = *cases::value_of<StepMethod>(name);
+    cases::Scene scene = bar(method, 4, {});
+    scene.definition.material_dynamics.mass_damping = 0;
+    scene.constrained.clear();
+    scene.loads.clear();
+    cases::loads::NodalForce one{{0.01, 0.02, -0.01}};
+    cases::Scene::AppliedLoad load{{}, {{}, one}};
+    load.selection.nodes = {0};
+    scene.loads.push_back(load);
+    scene.definition.dynamics->step = 0.001;
+    scene.definition.dynamics->end = 0.01;
+    scene.definition.msm.real_time->substeps = 2;
+    const msm::Points at = end_of(scene);
+    const std::vector<double> masses = cases::point_masses(scene);
+    Vector3d moved = Vector3d::Zero();
+    double mass = 0;
+    for (std::size_t p = 0; p < at.size(); ++p) {
+      moved += masses[p] * at[p];
+      mass += masses[p];
+    }
+    const double factor = 0.25e-6 * 20 * 21 / 2; // s²: sum of n h² of twenty substeps
+    const Vector3d expected = factor * one.value;
+    // Vertex block descent solves no pair of nodes at once: its forces have no counterforces until it ends.
+    if (method == StepMethod::vertex_block_descent)
+      CHECK((moved - expected).norm() > 1e-6 * expected.norm());
+    else if (method != StepMethod::implicit_euler) // whose linear solver is left before the sums are
+      CHECK((moved - expected).norm() < 1e-9 * expected.norm());
+  }
+}
+
+/// Distance of where a bar comes to rest from its equilibrium.
+static double apart_at_rest(StepMethod method, int iterations) {
+  cases::Scene scene = bar(method, iterations, sideways);
+  scene.definition.dynamics.reset();
+  scene.definition.material_dynamics.mass_damping = 0;
+  const cases::Solution rest = msm::come_to_rest(scene, {stiffness}, 1);
+  REQUIRE(rest.from_equilibrium);
+  REQUIRE(rest.from_equilibrium->rest);
+  CHECK(rest.from_equilibrium->rest->time < 20);
+  CHECK(rest.from_equilibrium->rest->steps == Approx(rest.from_equilibrium->rest->time / 0.01));
+  return apart(rest.displacement, msm::Model(scene, {stiffness}).solve().displacement);
+}
+
+TEST_CASE("a body comes to rest in the springs' equilibrium", "[verification]") {
+  // Up to what a node creeps by unseen. These begin a step at rest where the body is.
+  CHECK(apart_at_rest(StepMethod::implicit_euler, 5) < 1e-3);
+  CHECK(apart_at_rest(StepMethod::vertex_block_descent, 5) < 1e-3);
+  // These begin in free flight, which leaves a body at rest out of balance until the iterations suffice.
+  for (const StepMethod method : {StepMethod::projective_dynamics, StepMethod::xpbd}) {
+    const double few = apart_at_rest(method, 50), more = apart_at_rest(method, 200);
+    CAPTURE(cases::name_of(method), few, more);
+    CHECK(few > 0.01);
+    CHECK(more < few / 2);
+  }
+}
+
+TEST_CASE("a body that does not come to rest in its time says so") {
+  cases::Scene scene = bar(StepMethod::implicit_euler, 10, sideways);
+  scene.definition.dynamics.reset();
+  scene.definition.msm.real_time->end = 0.2;
+  CHECK_THROWS_WITH(msm::come_to_rest(scene, {stiffness}, 1), Catch::Contains("come to rest within 0.2 s"));
+}
+
+TEST_CASE("items of a colour touch nothing in common, and every item has one") {
+  const std::vector<std::vector<int>> touched{{0, 1}, {1, 2}, {2, 3}, {0, 3}, {0, 2}};
+  CHECK(msm::colour(touched, 4) == msm::Colours{{0, 2}, {1, 3}, {4}});
+}
