@@ -33,6 +33,7 @@ Field difference(const Field& a, const Field& b) {
 cases::Scene without_iteration_limit(cases::Scene scene) {
   cases::Msm& msm = scene.definition.msm;
   msm.iterations_per_step.reset();
+  msm.real_time.reset();
   if (msm.relaxation) {
     msm.relaxation.reset();
     msm.solver = cases::Solver::newton;
@@ -41,7 +42,7 @@ cases::Scene without_iteration_limit(cases::Scene scene) {
 }
 
 bool has_iteration_limit(const cases::Msm& msm) {
-  return msm.iterations_per_step || msm.relaxation;
+  return msm.iterations_per_step || msm.real_time || msm.relaxation;
 }
 
 /// One model on one lattice, with the case's step and with half of it.
