@@ -307,6 +307,10 @@ TEST_CASE("steps in real time are read") {
   CHECK(all.msm.real_time->step == 0.01);
   CHECK(all.msm.real_time->end == 2);
   CHECK(all.msm.real_time->damping == 0);
+  const Case set =
+      read_text(still, {"msm.real_time.method=projective_dynamics", "msm.real_time.iterations=50"});
+  REQUIRE(set.msm.real_time);
+  CHECK(set.msm.real_time->iterations == 50);
 }
 
 TEST_CASE("steps in real time are refused where they have no meaning") {
