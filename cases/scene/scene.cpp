@@ -284,7 +284,7 @@ Scene make_scene(const Case& case_as_read) {
   const Case& definition = scene.definition;
   scene.mesh = cut(make_mesh(definition.body, scene.remarks, scene.node_masses), definition.removed);
   const bool is_tetrahedron = scene.mesh.shape == CellShape::tetrahedron;
-  settle_element(scene.definition, is_tetrahedron);
+  if (has_cells(definition.body)) settle_element(scene.definition, is_tetrahedron);
   settle_design(scene.definition.msm, is_tetrahedron);
   find_nearest_nodes(scene.mesh, scene.definition, scene.remarks);
   resolve_materials(scene);

@@ -124,6 +124,23 @@ TEST_CASE("what needs cells, faces or masses is refused for a network, with what
   refused(pull + "[[body.removed]]\nbox = [[0, 0, 0], [1, 1, 1]]\n", "pieces are removed from cells");
 }
 
+TEST_CASE("finite elements beside a network have the elements of their own body's shape") {
+  const RowFolder folder;
+  folder.write("one.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+                          "$Nodes\n4\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 0 0 2\n$EndNodes\n"
+                          "$Elements\n1\n1 4 2 0 1 1 2 3 4\n$EndElements\n");
+  const auto scene = [&](const std::string& element) {
+    return folder.scene(pull +
+                        "[material]\nmodel = \"linear_elastic\"\nyoungs_modulus = 0.1\n"
+                        "poissons_ratio = 0.3\n[fem]\n" +
+                        element + "[fem.body]\nshape = \"mesh\"\nfile = \"one.msh\"\n");
+  };
+  CHECK(scene("").definition.fem.element == Element::p2);
+  CHECK(scene("element = \"p1\"\n").definition.fem.element == Element::p1);
+  CHECK_THROWS_WITH(scene("element = \"q1\"\n"),
+                    Catch::Contains("a mesh of tetrahedra") && Catch::Contains("[fem.body]"));
+}
+
 TEST_CASE("a mistake in a network is refused with its line and field") {
   const auto refused = [](const std::string& text, const std::string& with) {
     CAPTURE(text);
