@@ -85,7 +85,8 @@ EngineFacts facts_of(Engine engine) {
 }
 
 /// Numbers of springs and volume terms, in SI units.
-std::vector<EngineNumber> numbers_of(const EngineFacts& facts, const msm::CellStiffness& k, double edge) {
+std::vector<EngineNumber> numbers_of(const EngineFacts& facts, const msm::DesignResult& design, double edge) {
+  const msm::CellStiffness& k = design.stiffness;
   std::vector<EngineNumber> numbers;
   const bool inverse = facts.takes == Takes::compliances;
   const auto add = [&](const char* name, double stiffness) { // N/mm
@@ -93,6 +94,10 @@ std::vector<EngineNumber> numbers_of(const EngineFacts& facts, const msm::CellSt
     numbers.push_back({fmt::format("{} of {}", inverse ? "compliance" : "stiffness", name),
                        inverse ? 1 / (1e3 * stiffness) : 1e3 * stiffness, inverse ? "m/N" : "N/m"});
   };
+  if (design.springs.terms()) { // of four stiffnesses: those at the boundary are not halved
+    add("every spring", k.internal_diagonal);
+    return numbers;
+  }
   add("an edge of one cell", k.edge);
   add("an edge of two cells", 2 * k.edge);
   add("an edge of four cells", 4 * k.edge);
@@ -228,7 +233,7 @@ EngineDesign design_for_engine(const EngineRequest& request) {
   } else {
     const msm::DesignResult springs = springs_for(facts, request, design);
     found.design = cases::name_of(design.options.design);
-    found.numbers = numbers_of(facts, springs.stiffness, found.edge);
+    found.numbers = numbers_of(facts, springs, found.edge);
     found.warnings = springs.warnings;
     options = &design.options;
   }
@@ -237,9 +242,11 @@ EngineDesign design_for_engine(const EngineRequest& request) {
       {"mass of a node of eight cells", found.density * std::pow(1e-3 * found.edge, 3), "kg"});
   League league = read_league(cases::data_folder("clients") + "/league.toml");
   std::optional<LeagueClient> client;
-  if (request.client)
-    client = LeagueClient{request.client->name, request.client->words, {}, {}, {}};
-  else
+  if (request.client) {
+    client.emplace();
+    client->name = request.client->name;
+    client->words = request.client->words;
+  } else
     found.not_run = find_client(facts, league, client);
   if (!client) return found;
   const Judge judge(beam_of(found, options), 0);

@@ -5,6 +5,7 @@
 #include "compare/solve/springs.hpp"
 #include "tests/support/run_program.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 #include <sstream>
@@ -76,6 +77,16 @@ TEST_CASE("an engine's springs have the stiffnesses of a lattice's, by the cells
         is(between({0, 0, 10}, {10, 10, 10})));
   CHECK(number_of(design, "stiffness of an internal diagonal") == is(between({0, 0, 0}, {10, 10, 10})));
   CHECK(number_of(design, "k_v of a cell") == is(1e6 * lattice.volume_cells.front().stiffness));
+
+  request.has_method = true;
+  request.design.options.design = cases::Design::uniform; // not halved at the boundary
+  const EngineDesign uniform = compare::design_for_engine(request);
+  CHECK(number_of(uniform, "stiffness of every spring") ==
+        is(1e3 * msm::design(request.design).stiffness.internal_diagonal));
+  CHECK(std::none_of(uniform.numbers.begin(), uniform.numbers.end(), [](const compare::EngineNumber& one) {
+    return one.name == "stiffness of an edge of one cell";
+  }));
+  request = request_for(Engine::sofa);
 
   // Compliances: those of springs are the inverse, that of a volume stores a cell's energy, C²/(2 alpha).
   for (const auto& [engine, name, factor] :
