@@ -252,13 +252,6 @@ void read_relaxation(Table& table, Msm& msm) {
            counts.all(), most);
 }
 
-bool damps_stiffness(const Case& definition) {
-  const auto& regions = definition.region_materials;
-  return definition.material_dynamics.stiffness_damping > 0 ||
-         std::any_of(regions.begin(), regions.end(),
-                     [](const auto& region) { return region.dynamics.stiffness_damping > 0; });
-}
-
 RealTime read_real_time(Table& table, const Case& definition) {
   RealTime real_time;
   real_time.method = table.required("method", read_name<StepMethod>);
@@ -291,7 +284,8 @@ void check_real_time(Table& table, const Msm& msm, const Case& definition) {
   if (msm.iterations_per_step) entry.refuse("left out beside iterations_per_step");
   if (msm.mass == PointMass::consistent)
     entry.refuse("left out beside mass = \"consistent\": its masses are lumped");
-  if (damps_stiffness(definition)) entry.refuse("left out beside stiffness_damping: it damps masses alone");
+  if (has_stiffness_damping(definition))
+    entry.refuse("left out beside stiffness_damping: it damps masses alone");
 }
 
 Msm read_msm(Table& table, const Case& definition) {

@@ -85,6 +85,11 @@ CameToRest come_to_rest(const BodyInTime& body, Vector start, double step, doubl
   std::vector<Eigen::Vector3d> before = body.displacement(start);
   TimeIntegrator motion(body.problem, scheme, {0, std::move(start), std::move(at_rest), {}}, settings);
   const long every = std::max(1L, std::lround(watched / step)), last = std::lround(end / step);
+  if (last < every)
+    throw cases::SolveError(fmt::format("cannot come to rest within {:g} s: rest is {:.3g} s without motion; "
+                                        "give more time",
+                                        end, double(every) * step),
+                            to_solution(motion.work()));
   double moved = 0, largest = 0;
   for (long n = 1; n <= last; ++n) {
     for (int part = 1; part <= settings.substeps; ++part)

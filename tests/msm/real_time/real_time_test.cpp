@@ -197,7 +197,11 @@ TEST_CASE("a body that does not come to rest in its time says so") {
   cases::Scene scene = bar(StepMethod::implicit_euler, 10, sideways);
   scene.definition.dynamics.reset();
   scene.definition.msm.real_time->end = 0.2;
-  CHECK_THROWS_WITH(msm::come_to_rest(scene, {stiffness}, 1), Catch::Contains("come to rest within 0.2 s"));
+  CHECK_THROWS_WITH(msm::come_to_rest(scene, {stiffness}, 1),
+                    Catch::Contains("within 0.2 s: rest is 0.5 s without motion"));
+  scene.definition.msm.real_time->end = 0.6; // it was let go at the first's start
+  CHECK_THROWS_WITH(msm::come_to_rest(scene, {stiffness}, 1),
+                    Catch::Contains("does not come to rest within 0.6 s: in the last 0.5 s a node moved by"));
 }
 
 TEST_CASE("items of a colour touch nothing in common, and every item has one") {
