@@ -294,6 +294,9 @@ int run_comparisons(const RunOptions& options) {
     for (Question& question : questions) {
       cases::refuse_network(question.scene.definition, "--error-budget",
                             "the error itself is told without it");
+      if (question.scene.definition.measures.empty())
+        throw cases::InputError(question.scene.definition.file +
+                                ": --error-budget: the case has no [[measure]]; add one");
       question.scene.definition.fem.has_auto_accuracy = true;
     }
   check_memory(questions);
@@ -321,7 +324,11 @@ int run_comparisons(const RunOptions& options) {
           study_time(comparison.scene, comparison.answers, question.request, solve_fem));
       failed = failed || !results.time_studies.back().failures.empty();
     }
-    if (options.has_error_budget) results.budgets.push_back(study_errors(comparison, question.request));
+    if (options.has_error_budget) {
+      results.budgets.push_back(study_errors(comparison, question.request));
+      // Without parts a model has no answer, or none with half the step.
+      failed = failed || results.budgets.back().springs.empty();
+    }
     if (!options.designs.empty()) {
       results.rankings.push_back(rank_designs(comparison.scene,
                                               designs_of(options.designs, comparison.scene.definition),

@@ -57,10 +57,6 @@ struct Known {
   Field value, uncertainty;
 };
 
-Known exactly(const Field& value) {
-  return {value, Field(value.size(), Vector3d::Zero())};
-}
-
 /// What parts of an error at one measure are made of.
 class MeasuredParts {
  public:
@@ -122,9 +118,7 @@ class MeasuredParts {
 /// What the step of a motion adds to a value: value - f0 with Richardson's f0 = f2 + (f2 - f1)/(2^p - 1).
 Field step_part(const Field& value, const Field& half_step, int order) {
   const double factor = std::pow(2, order) / (std::pow(2, order) - 1);
-  Field part = difference(value, half_step);
-  for (Vector3d& each : part) each *= factor;
-  return part;
+  return moved(Field(value.size(), Vector3d::Zero()), factor, value, half_step);
 }
 
 /// What a lattice is left unsolved for.

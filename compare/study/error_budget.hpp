@@ -24,7 +24,7 @@ struct ErrorPart {
 /// more on the next finer mesh for `law`, so that the sum differs from the whole by what mesh and step do
 /// together.
 ///
-/// Of a norm of the displacement field a part p counts with p.e/|e|, e the whole difference, so that the
+/// A part p of a norm of the displacement field counts with p.e/|e|, e the whole difference, so that the
 /// parts add up to |e|.
 struct ErrorBudget {
   std::string measure;
