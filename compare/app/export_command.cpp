@@ -21,14 +21,21 @@ struct ExportOptions {
 
 /// Errors of a case's springs of another design, from its finite elements on the same mesh.
 std::string error_of(const ExportOptions& options, const std::string& design) {
+  const auto no_answer = [](const std::string& why) {
+    return ", which do not answer this case: " + one_line(why);
+  };
   std::vector<std::string> settings = options.settings;
   settings.push_back("msm.design=" + design);
-  const cases::Scene scene = read_questions({options.file}, settings, {}).front().scene;
-  if (scene.definition.measures.empty()) return "";
-  const JudgedRow springs = Judge(scene, 0).own({}).rows.back();
-  if (!springs.worst) return fmt::format(", which do not answer this case: {}", springs.failure);
-  return fmt::format(", which err by {:.3g} % on this case (its worst measure, {})", *springs.worst,
-                     one_line(springs.worst_at));
+  try {
+    const cases::Scene scene = read_questions({options.file}, settings, {}).front().scene;
+    if (scene.definition.measures.empty()) return "";
+    const JudgedRow springs = Judge(scene, 0).own({}).rows.back();
+    if (!springs.worst) return no_answer(springs.failure);
+    return fmt::format(", which err by {:.3g} % on this case (its worst measure, {})", *springs.worst,
+                       one_line(springs.worst_at));
+  } catch (const cases::InputError& error) { // a key that belongs to the other design, too little memory
+    return no_answer(error.what());
+  }
 }
 
 int export_case(const ExportOptions& options) {
