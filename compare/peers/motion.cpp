@@ -159,12 +159,13 @@ std::vector<GivenBody> read_motion_csv(const std::string& path) {
   return bodies;
 }
 
-/// The body nearest to a time, if that is the same time: six digits of text are off by five millionths.
+/// The body nearest to a time, if that is the same time: six digits of text are off by five millionths. Where
+/// that is much of a step, they do not tell one step's body from the next one's.
 const GivenBody* body_at(const std::vector<GivenBody>& bodies, double time, double step) {
   const auto later = std::lower_bound(bodies.begin(), bodies.end(), time,
                                       [](const GivenBody& body, double t) { return body.time < t; });
   const GivenBody* nearest = nullptr;
-  double distance = 5e-6 * time + 1e-6 * step;
+  double distance = std::min(5e-6 * time + 1e-6 * step, step / 4);
   for (auto at = later == bodies.begin() ? later : later - 1; at != bodies.end() && at <= later; ++at)
     if (std::abs(at->time - time) <= distance) {
       distance = std::abs(at->time - time);
