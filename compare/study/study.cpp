@@ -57,8 +57,9 @@ std::vector<Standing> standings_of(const std::vector<Trial>& trials) {
 } // namespace
 
 bool is_stable(const cases::Solution& springs) {
+  const bool has_moved = springs.trajectory || (springs.from_equilibrium && springs.from_equilibrium->rest);
   return springs.status == cases::Status::converged && springs.inverted_cells == 0 &&
-         (springs.trajectory || springs.outcome == cases::Outcome::stable_equilibrium);
+         (has_moved || springs.outcome == cases::Outcome::stable_equilibrium);
 }
 
 std::optional<double> milliseconds_a_step(const Answer& answer) {

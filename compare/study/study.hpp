@@ -72,8 +72,8 @@ Comparison try_springs(const cases::Scene& scene, const Answers& fem);
 /// @param meshes  meshes for the finite elements' limit, as in Request    @return all of them on every rank
 Answers solve_reference(const cases::Scene& scene, int meshes = 0);
 
-/// Whether springs converged to a stable equilibrium without inverted cells; a motion's end need not be
-/// stable.
+/// Whether springs converged to a stable equilibrium without inverted cells; the end of a motion, and
+/// where one comes to rest, need not be stable.
 bool is_stable(const cases::Solution& springs);
 
 /// What a trial has to show for itself when it is held against others.

@@ -94,6 +94,8 @@ std::string pace_text(double milliseconds_a_step) {
 /// How both models ended, for a case without errors.
 std::string end_of(const Answers& answers) {
   if (answers.fem.solution.trajectory) return "Both models moved to the end";
+  if (const auto& from = answers.msm.solution.from_equilibrium; from && from->rest)
+    return "The springs came to rest";
   if (!answers.msm.solution.is_equilibrium()) return "The springs were stopped before their equilibrium";
   return "Both models are in equilibrium";
 }

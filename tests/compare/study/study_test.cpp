@@ -132,6 +132,17 @@ TEST_CASE("of a motion the advice says whether a step keeps up with a screen") {
   CHECK_THAT(compare::advice_of(ranking), Catch::Contains("17 ms a step: does not keep 60 Hz"));
 }
 
+TEST_CASE("springs that steps in real time bring to rest are stable, those of iterations that end are not") {
+  cases::Solution springs;
+  springs.status = cases::Status::converged;
+  springs.from_equilibrium.emplace();
+  CHECK_FALSE(compare::is_stable(springs));
+  springs.from_equilibrium->rest = {1.5, 90};
+  CHECK(compare::is_stable(springs));
+  springs.inverted_cells = 1;
+  CHECK_FALSE(compare::is_stable(springs));
+}
+
 TEST_CASE("the sentence names the designs that the reference's uncertainty does not tell from the best") {
   compare::Ranking ranking = ranking_of({with_error("best", 3, true), with_error("close", 3.4, true),
                                          with_error("unstable", 3.1, false), with_error("far", 5, true)});
