@@ -39,7 +39,7 @@ TEST_CASE("every enumerator has one name, and the name leads back to it") {
   check_names<PointMass>(3);
   check_names<OverTime>(8);
   check_names<Formulation>(4);
-  check_names<Element>(9);
+  check_names<Element>(10);
   check_names<Design>(16);
   check_kinds<measures::Kind>(12);
   check_names<Statistic>(3);
