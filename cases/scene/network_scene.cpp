@@ -3,6 +3,7 @@
 #include "cases/case/input_file.hpp"
 #include "cases/scene/loads.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <numeric>
 #include <utility>
@@ -43,16 +44,42 @@ void add_measures(const Scene& network, Scene& of_fem) {
   }
 }
 
+double sum(const std::vector<double>& masses) {
+  return std::accumulate(masses.begin(), masses.end(), 0.0);
+}
+
+/// The mass of a body, t, without [[mass]], which a network has by itself.
+double own_mass(const Scene& scene) {
+  double mass = sum(point_masses(scene, PointMass::cells));
+  for (const auto& [node, added] : added_masses(scene)) mass -= added;
+  return mass;
+}
+
+/// Says that two models carry different weights.
+void check_weights(Scene& scene, double of_fem) {
+  constexpr double told = 0.01; // as much of the displacements
+  const double of_network = sum(scene.node_masses);
+  if (gravity(scene).isZero(0) || std::abs(of_network - of_fem) <= told * of_fem) return;
+  scene.remarks.push_back(fmt::format(
+      "{}: nodes of {:.4g} kg, where [fem.body] has {:.4g} kg: gravity pulls at the two models differently",
+      std::get<Network>(scene.definition.body).nodes.path, of_network / tonnes_per_kg,
+      of_fem / tonnes_per_kg));
+}
+
 /// Gives a network without masses equal shares of the mass of the finite elements' body.
 /// @throws InputError if something needs masses and there are none
 void settle_masses(Scene& scene) {
   const Case& definition = scene.definition;
   const Network* network = std::get_if<Network>(&definition.body);
-  if (!network || !scene.node_masses.empty()) return;
+  if (!network) return;
   if (definition.fem_body && definition.material_dynamics.density) {
-    const std::vector<double> of_cells = point_masses(scene.of_fem.front(), PointMass::cells);
-    const double total = std::accumulate(of_cells.begin(), of_cells.end(), 0.0);
-    scene.node_masses.assign(scene.mesh.nodes.size(), total / static_cast<double>(scene.mesh.nodes.size()));
+    const double total = own_mass(scene.of_fem.front());
+    if (scene.node_masses.empty())
+      scene.node_masses.assign(scene.mesh.nodes.size(), total / static_cast<double>(scene.mesh.nodes.size()));
+    else
+      check_weights(scene, total);
+  } else if (!scene.node_masses.empty()) {
+    return;
   } else if (definition.dynamics || !gravity(scene).isZero(0) || !definition.masses.empty()) {
     network->nodes.refuse(fmt::format("has no masses, which {} needs: give every node a fourth column, kg",
                                       definition.dynamics         ? "[dynamics]"

@@ -1,6 +1,7 @@
 #include "cases/scene/network.hpp"
 
 #include "cases/case/read_case.hpp"
+#include "cases/scene/loads.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
@@ -124,21 +125,50 @@ TEST_CASE("what needs cells, faces or masses is refused for a network, with what
   refused(pull + "[[body.removed]]\nbox = [[0, 0, 0], [1, 1, 1]]\n", "pieces are removed from cells");
 }
 
+namespace {
+
+/// The same network beside a tetrahedron of 4/3 mm³.
+struct TetrahedronFolder : RowFolder {
+  TetrahedronFolder() {
+    write("one.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+                     "$Nodes\n4\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 0 0 2\n$EndNodes\n"
+                     "$Elements\n1\n1 4 2 0 1 1 2 3 4\n$EndElements\n");
+  }
+  /// @param more  tables, then keys of [fem]
+  Scene scene(const std::string& more) const {
+    return RowFolder::scene(pull +
+                            "[material]\nmodel = \"linear_elastic\"\nyoungs_modulus = 0.1\n"
+                            "poissons_ratio = 0.3\ndensity = 3e5\n" +
+                            more + "[fem.body]\nshape = \"mesh\"\nfile = \"one.msh\"\n");
+  }
+};
+
+} // namespace
+
 TEST_CASE("finite elements beside a network have the elements of their own body's shape") {
-  const RowFolder folder;
-  folder.write("one.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
-                          "$Nodes\n4\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 0 0 2\n$EndNodes\n"
-                          "$Elements\n1\n1 4 2 0 1 1 2 3 4\n$EndElements\n");
-  const auto scene = [&](const std::string& element) {
-    return folder.scene(pull +
-                        "[material]\nmodel = \"linear_elastic\"\nyoungs_modulus = 0.1\n"
-                        "poissons_ratio = 0.3\n[fem]\n" +
-                        element + "[fem.body]\nshape = \"mesh\"\nfile = \"one.msh\"\n");
-  };
+  const TetrahedronFolder folder;
+  const auto scene = [&](const std::string& element) { return folder.scene("[fem]\n" + element); };
   CHECK(scene("").definition.fem.element == Element::p2);
   CHECK(scene("element = \"p1\"\n").definition.fem.element == Element::p1);
   CHECK_THROWS_WITH(scene("element = \"q1\"\n"),
                     Catch::Contains("a mesh of tetrahedra") && Catch::Contains("[fem.body]"));
+}
+
+TEST_CASE("a network shares the mass of the finite elements' body, without masses that are added to both") {
+  const TetrahedronFolder folder;
+  const std::string heavy = "[[mass]]\nregion = \"x+\"\nvalue = 0.001\n",
+                    gravity = "[[load]]\nkind = \"gravity\"\nvalue = [0, 0, -9.81]\n";
+  const Scene equal = folder.scene(heavy + gravity);
+  REQUIRE(equal.node_masses.size() == 3);
+  for (const double mass : equal.node_masses) CHECK(mass == Approx(4. / 9 * 1e-9 * 3e5 * 1e-3)); // t
+  const std::vector<double> all = point_masses(equal);
+  CHECK(all[2] - all[1] == Approx(1e-6));
+  CHECK(equal.remarks.empty());
+  folder.write("nodes.csv", "0,0,0,1\n1,0,0,1\n2,0,0,1\n");
+  CHECK(folder.scene("").remarks.empty());
+  const Scene other = folder.scene(gravity);
+  REQUIRE(other.remarks.size() == 1);
+  CHECK_THAT(other.remarks[0], Catch::Contains("nodes of 3 kg, where [fem.body] has 0.0004 kg"));
 }
 
 TEST_CASE("a mistake in a network is refused with its line and field") {
