@@ -279,7 +279,8 @@ void check_real_time(Table& table, const Msm& msm, const Case& definition) {
   if (dynamics && dynamics->scheme.scheme != Scheme::implicit_euler)
     refuse(dynamics->where, "scheme is \"{}\", must be \"implicit_euler\" beside msm.real_time",
            name_of(dynamics->scheme.scheme));
-  if (!definition.material_dynamics.density) entry.refuse("left out without material.density");
+  if (has_cells(definition.body) && !definition.material_dynamics.density)
+    entry.refuse("left out without material.density");
   if (msm.solver != Solver::newton) entry.refuse("left out beside another solver than \"newton\"");
   if (msm.iterations_per_step) entry.refuse("left out beside iterations_per_step");
   if (msm.mass == PointMass::consistent)

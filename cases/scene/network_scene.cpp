@@ -80,9 +80,11 @@ void settle_masses(Scene& scene) {
       check_weights(scene, total);
   } else if (!scene.node_masses.empty()) {
     return;
-  } else if (definition.dynamics || !gravity(scene).isZero(0) || !definition.masses.empty()) {
+  } else if (definition.dynamics || definition.msm.real_time || !gravity(scene).isZero(0) ||
+             !definition.masses.empty()) {
     network->nodes.refuse(fmt::format("has no masses, which {} needs: give every node a fourth column, kg",
                                       definition.dynamics         ? "[dynamics]"
+                                      : definition.msm.real_time  ? "msm.real_time"
                                       : definition.masses.empty() ? "gravity"
                                                                   : "[[mass]]"));
   }

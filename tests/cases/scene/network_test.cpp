@@ -109,6 +109,7 @@ TEST_CASE("what needs cells, faces or masses is refused for a network, with what
           "has no masses, which gravity needs: give every node a fourth column, kg");
   refused(pull + "[[mass]]\nregion = \"x+\"\nvalue = 1\n", "which [[mass]] needs");
   refused(pull + "[dynamics]\nscheme = \"bdf2\"\nstep = 0.1\nend = 1\n", "which [dynamics] needs");
+  refused(pull + "[msm]\nreal_time = { method = \"xpbd\" }\n", "which msm.real_time needs");
   for (const char* kind : {"volume", "displacement_field_l2"})
     refused(pull + measure("\"" + std::string(kind) + "\"\n"),
             "which is one of cells, and a network has none");
