@@ -212,7 +212,7 @@ Answers with_client(Answers answers, const cases::Scene& scene, const Client& cl
   ClientAnswer found = ask_client(scene, client, {});
   answers.msm = std::move(found.answer);
   answers.design.reset();
-  answers.msm_source = client.name;
+  answers.msm_name = answers.msm_source = client.name;
   answers.msm_warnings = std::move(found.warnings);
   if (!found.introduction) return answers;
   const Introduction& is = *found.introduction;

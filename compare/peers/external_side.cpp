@@ -236,6 +236,7 @@ Answers with_displacements(Answers answers, const cases::Scene& scene,
   answers.msm_warnings = std::move(held.warnings);
   answers.design.reset();
   answers.msm_source = external.path;
+  answers.msm_name = std::filesystem::path(external.path).filename().string();
   if (external.cells) answers.interpolated = interpolated(answers.fem, mesh, *external.cells);
   return answers;
 }

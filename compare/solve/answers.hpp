@@ -50,6 +50,7 @@ struct Answers {
   std::vector<std::string> choices; ///< what "auto" in [fem] was taken to mean, with the reasons
   Answer fem, msm;
   std::string msm_source; ///< file with another program's displacements in place of our springs'; empty: ours
+  std::string msm_name = "springs"; ///< heading of these values in text: the file's or the client's name
   std::optional<msm::DesignResult> design; ///< absent when the springs were skipped or could not be designed
   std::optional<RefinedMeshes> refined;    ///< meshes of the finite elements' limit, if asked for
   std::optional<Peer> peer;                ///< when asked for

@@ -29,8 +29,8 @@ SPRINGPROOF_FIELDS(springproof::compare::RefinedMeshes, refine, solutions, reaso
 SPRINGPROOF_FIELDS(springproof::compare::Peer, program, answer, largest_difference)
 SPRINGPROOF_FIELDS(springproof::compare::Interpolated, side, n_points, n_outside, largest_distance,
                    fem_and_back)
-SPRINGPROOF_FIELDS(springproof::compare::Answers, resolved, choices, fem, msm, msm_source, design, refined,
-                   peer, interpolated, msm_warnings)
+SPRINGPROOF_FIELDS(springproof::compare::Answers, resolved, choices, fem, msm, msm_source, msm_name, design,
+                   refined, peer, interpolated, msm_warnings)
 SPRINGPROOF_FIELDS(springproof::compare::Request, only, meshes, peer, n_threads)
 SPRINGPROOF_FIELDS(springproof::compare::Question, scene, request)
 

@@ -191,6 +191,7 @@ void write_measures_table(std::ostream& out, const Comparison& comparison) {
   Columns columns =
       columns_of(std::string("measure=name unit fem{:.6g} springs=msm{:.6g} ") +
                  (has_limits ? "fem's~limit=limit error~%=error fem's~error~%=fem_error" : "error~%=error"));
+  columns[3].heading = comparison.answers.msm_name;
   if (peer) columns.push_back({peer->program, "peer", "{:.6g}"});
   write_table(out, columns, rows);
 }
