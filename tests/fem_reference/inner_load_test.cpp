@@ -60,8 +60,8 @@ TEST_CASE("a traction on a cross section inside a bar pulls what lies between it
         const auto found = fem_reference::Model(scene, MPI_COMM_SELF, backend).solve();
         CAPTURE(cases::name_of(element), refine, static_cast<int>(backend));
         // t x/E, exact for each element but one: rounding and the solvers' 1e-9. The pressure jumps at x = 4,
-        // and a continuous one errs by a part of the cells beside it.
-        const double part = element == cases::Element::p2_p1 ? 0.01 : 1e-8;
+        // and a continuous one errs by a part of the cells beside it, which refinement takes away.
+        const double part = element == cases::Element::p2_p1 ? (refine == 0 ? 0.1 : 0.01) : 1e-8;
         CHECK(displacement_at(scene, found, {8, 0, 2}).x() == Approx(0.004).epsilon(part));
         CHECK(displacement_at(scene, found, {2, 2, 0}).x() == Approx(0.002).epsilon(part));
       }
