@@ -65,6 +65,12 @@ SPRINGPROOF_ENUMERATION(Keep,
                         seed     ///< the one with a point
 )
 
+/// What a case's points and directions are given in.
+SPRINGPROOF_ENUMERATION(Frame,
+                        grid, ///< the body's own: mm along the axes of the picture's array, from its corner
+                        world ///< the scanner's, to which the picture's file has a map
+)
+
 /// The cells of a picture in three dimensions (NIfTI, InVesalius) that are of some class.
 struct Labels {
   NamedFile file;
@@ -74,8 +80,9 @@ struct Labels {
   Keep keep = Keep::all;
   Eigen::Vector3d seed = Eigen::Vector3d::Zero(); ///< mm
   double scale = 1;                               ///< factor on the lengths in the file
+  Frame frame = Frame::grid;
 };
-SPRINGPROOF_FIELDS(Labels, file, edge, classes, crop, keep, seed, scale)
+SPRINGPROOF_FIELDS(Labels, file, edge, classes, crop, keep, seed, scale, frame)
 
 /// Nodes and the springs between them, without cells: read_nodes(), read_network().
 struct Network {
@@ -88,6 +95,11 @@ using Body = std::variant<Box, MeshFile, Voxels, Labels, FilledSurface, Network>
 /// Whether a body has volume, faces and a material.
 inline bool has_cells(const Body& body) {
   return !std::holds_alternative<Network>(body);
+}
+
+inline bool is_in_world(const Body& body) {
+  const Labels* labels = std::get_if<Labels>(&body);
+  return labels != nullptr && labels->frame == Frame::world;
 }
 
 /// The class whose cells are rigid, if there is one.

@@ -66,6 +66,9 @@ std::optional<Body> read_fem_body(Table& root, const Case& definition) {
   const auto body = fem.section_if_there("body", [&](Table& table) {
     Body read = read_body(table, definition.file);
     if (!has_cells(read)) table.entry("shape").refuse("another shape, of cells");
+    if (is_in_world(read))
+      table.entry("frame").refuse(
+          "\"grid\" here: the network's nodes are along the axes of the picture's array");
     return read;
   });
   if (!has_cells(definition.body) && !body)

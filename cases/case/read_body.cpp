@@ -73,6 +73,11 @@ Labels read_labels(Table& table, const std::string& case_path) {
   table.know({"keep"});
   if (table.has("keep")) read_keep(table.entry("keep"), labels);
   labels.scale = read_scale(table);
+  labels.frame = table.optional("frame", read_name<Frame>).value_or(labels.frame);
+  if (labels.frame == Frame::world && labels.file.path.substr(labels.file.path.rfind('.')) == ".inv3")
+    table.entry("frame").refuse(
+        "\"grid\" with a project of InVesalius, whose place in the scanner is not read; "
+        "NIfTI files have world coordinates");
   return labels;
 }
 
@@ -217,6 +222,8 @@ double read_scale(Table& table) {
 Body read_body(Table& table, const std::string& case_path) {
   const std::string shape =
       table.entry("shape").word({"box", "mesh", "voxels", "labels", "surface", "network"});
+  table.refuse_unless(shape == "labels", {"frame"},
+                      "left out: only the picture of shape = \"labels\" has world coordinates");
   if (shape == "network")
     return Network{read_file_name(table.entry("nodes"), {".csv"}, "a file of nodes, .csv", case_path),
                    read_file_name(table.entry("springs"), {".csv"}, "a file of springs, .csv", case_path)};

@@ -175,7 +175,8 @@ Moved read_moved(Table& table, const Case& definition) {
     const Entry entry = table.entry("displacement");
     moved.displacement = Vector{"three finite numbers (mm), or angle, axis and centre in its place"}(entry);
     for (std::size_t a = 0; a < 3; ++a)
-      if (!moved.components[a] && moved.displacement[static_cast<int>(a)] != 0)
+      if (!moved.components[a] && !is_in_world(definition.body) &&
+          moved.displacement[static_cast<int>(a)] != 0)
         entry.refuse("0 in the components that are not moved");
   }
   read_way(table, moved, definition.dynamics);

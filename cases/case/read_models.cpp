@@ -222,12 +222,13 @@ void read_stiffness(Table& table, Msm& msm) {
 
 /// Checks that a design that is asked for suits the material. A default design is refused only when springs
 /// are designed, which may never happen.
-void check_is_for(const Entry& design, const Msm& msm, const Material& material) {
+void check_is_for(const Entry& design, const Msm& msm, const Case& definition) {
+  const Material& material = definition.material;
   if (!is_for(msm.design, is_isotropic(material)))
     design.refuse(
         fmt::format("{} with model = \"{}\"", designs_for(is_isotropic(material)), name_of(material)));
   const auto* fibrous = std::get_if<TransverselyIsotropic>(&material);
-  if (msm.design == Design::transverse && !axis_along(fibrous->fibre))
+  if (msm.design == Design::transverse && !is_in_world(definition.body) && !axis_along(fibrous->fibre))
     design.refuse("\"given\" | \"network\" with this material.fibre, which lies along no axis of the grid");
 }
 
@@ -308,7 +309,7 @@ Msm read_msm(Table& table, const Case& definition) {
   for (const std::string& key : keys_of_designs())
     table.refuse_unless(takes(msm.design, key), {key.c_str()},
                         "left out: it belongs to design = " + designs_with(key));
-  if (table.has("design")) check_is_for(table.entry("design"), msm, material);
+  if (table.has("design")) check_is_for(table.entry("design"), msm, definition);
 
   msm.solver = table.optional("solver", read_name<Solver>).value_or(Solver::newton);
   read_relaxation(table, msm);

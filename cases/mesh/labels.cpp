@@ -6,6 +6,7 @@
 #include "cases/mesh/voxels.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 namespace cereal {
 
 SPRINGPROOF_FIELDS(springproof::cases::LabelGrid, cells, origin, class_of_cell, lowest, highest, size)
+SPRINGPROOF_FIELDS(springproof::cases::Placement, axes, corner, is_by_sform, code)
 
 } // namespace cereal
 
@@ -290,6 +292,39 @@ Mesh make_label_mesh(const Labels& labels) {
   } catch (const std::exception& error) {
     labels.file.refuse(error.what());
   }
+}
+
+Placement placement_of(const Labels& labels) {
+  try {
+    const VolumeBytes bytes = bytes_of_volume(labels.file.path);
+    const auto& functions = vtk(); // loaded before the child is confined
+    const auto read = [&] { return to_bytes(functions.read_placement(labels.file.path)); };
+    Placement placement;
+    from_bytes(run_confined(read, limits_to_read(bytes.in_file)), placement);
+    Eigen::Matrix3d rotation;
+    rotation << placement.axes[0], placement.axes[1], placement.axes[2];
+    if (!placement.corner.allFinite() || !rotation.isUnitary(1e-9) || !(rotation.determinant() > 0))
+      refuse_labels("has a map to the world that is none");
+    placement.corner *= labels.scale;
+    return placement;
+  } catch (const std::exception& error) {
+    labels.file.refuse(error.what());
+  }
+}
+
+Labels on_grid(const Labels& labels, const Placement& placement) {
+  Labels result = labels;
+  result.frame = Frame::grid;
+  result.seed = placement.to_body(labels.seed);
+  if (!labels.crop) return result;
+  const auto& [lower, upper] = *labels.crop;
+  Eigen::AlignedBox3d cover; // the array may lie askew
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto end = [&](int a) { return (corner >> a & 1) != 0 ? upper[a] : lower[a]; };
+    cover.extend(placement.to_body({end(0), end(1), end(2)}));
+  }
+  result.crop = {cover.min(), cover.max()};
+  return result;
 }
 
 Picture picture_about(const Volume& volume, const LabelGrid& grid, double edge, double level) {

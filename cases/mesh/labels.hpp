@@ -42,6 +42,14 @@ LabelGrid read_label_grid(const Labels& labels);
 /// Makes the mesh of the grid that read_label_grid() reads.
 Mesh make_label_mesh(const Labels& labels);
 
+/// How a picture lies in the world, at the body's scale. Read in a confined process.
+/// @throws InputError, at the place of the file in the case file, if it has no such map, or one that is no
+/// rotation
+Placement placement_of(const Labels& labels);
+
+/// The same body, with its crop and the point of the piece that is kept in the body's own coordinates.
+Labels on_grid(const Labels& labels, const Placement& placement);
+
 /// The intensities of the voxels whose centre lies in a body's grid. Where the centre lies neither in one of
 /// the body's cells nor in a neighbour of one, intensities above the level are mirrored below it. So the
 /// contour at the level is the body's alone, as the picture has it, which cells follow in steps.

@@ -161,7 +161,8 @@ void run_information(vtkAlgorithm& algorithm) {
 }
 
 extern "C" const VtkFunctions springproof_vtk{
-    write_unstructured_grid, write_lines, read_points, read_cells,       read_mesh_cells,   read_triangles,
-    nearest_points,          read_volume, contour_of,  nearest_in_cells, decimated_surface, distances_from};
+    write_unstructured_grid, write_lines,       read_points,   read_cells,     read_mesh_cells,
+    read_triangles,          nearest_points,    read_volume,   read_placement, contour_of,
+    nearest_in_cells,        decimated_surface, distances_from};
 
 } // namespace springproof::cases

@@ -58,6 +58,21 @@ struct Volume {
   std::vector<float> intensities;   ///< x fastest
 };
 
+/// How a picture's array lies in the world: point (x, y, z) of a Volume is at
+/// corner + x axes[0] + y axes[1] + z axes[2].
+struct Placement {
+  std::array<Eigen::Vector3d, 3> axes{}; ///< of unit length, at right angles, right-handed
+  Eigen::Vector3d corner{0, 0, 0};       ///< mm
+  bool is_by_sform = true;               ///< NIfTI's sform says so, else its qform
+  int code = 0;                          ///< of that form, > 0
+
+  /// A direction of the world, along the axes of the array.
+  Eigen::Vector3d turned(const Eigen::Vector3d& direction) const {
+    return {axes[0].dot(direction), axes[1].dot(direction), axes[2].dot(direction)};
+  }
+  Eigen::Vector3d to_body(const Eigen::Vector3d& point) const { return turned(point - corner); }
+};
+
 /// What a picture's file can hold.
 struct VolumeBytes {
   std::uint64_t in_file;
@@ -120,6 +135,8 @@ struct VtkFunctions {
   /// Reads a file .nii, .nii.gz or .inv3.
   /// @param bytes  what the file can hold; a compressed one is inflated twice, to check it first
   Volume (*read_volume)(const std::string& path, const VolumeBytes& bytes);
+  /// Reads the header of a file .nii or .nii.gz.
+  Placement (*read_placement)(const std::string& path);
   /// cases::contour() for as many values as points.
   Surface (*contour)(const Picture&, const ContourSettings&);
   /// The place nearest to each position.  @param mesh  with at least one cell

@@ -53,6 +53,7 @@ Surface contour_of(const Picture& picture, const ContourSettings& settings);
 Surface decimated_surface(const TriangleMesh& surface, std::size_t n_triangles);
 std::vector<PlaceInCell> nearest_in_cells(const Mesh& mesh, const std::vector<Eigen::Vector3d>& positions);
 Volume read_volume(const std::string& path, const VolumeBytes& bytes);
+Placement read_placement(const std::string& path);
 
 /// An array of numbers, vectors or symmetric tensors, its components named as ParaView shows them.
 template<class Value>

@@ -2,6 +2,7 @@
 #include "cases/mesh/vtk_parts.hpp"
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <archive.h>
 #include <archive_entry.h>
@@ -55,27 +56,69 @@ double unit_of_length(vtkNIFTIImageHeader& header) {
   refuse("has lengths in 'xyzt_units " + std::to_string(unit) + "', must be um, mm or m");
 }
 
-/// The grid spacings of pixdim. The affine map of an sform leads to where the scanner or an aligned picture
-/// has the voxels, and must agree; one to an atlas (codes 3 and up) need not where a qform leads to the
-/// scanner.
+/// A map from the numbers (i, j, k) of a voxel to its centre in the world, in the file's unit of length.
+using VoxelMap = Eigen::Matrix<double, 3, 4>;
+
+/// NIfTI's method 3.
+VoxelMap sform_of(vtkNIFTIImageHeader& header) {
+  Eigen::Matrix<double, 3, 4, Eigen::RowMajor> map;
+  header.GetSRowX(map.row(0).data());
+  header.GetSRowY(map.row(1).data());
+  header.GetSRowZ(map.row(2).data());
+  return map;
+}
+
+/// NIfTI's method 2: a quaternion, whose real part is not in the file, spacings, and qfac in pixdim[0].
+VoxelMap qform_of(vtkNIFTIImageHeader& header, const Eigen::Vector3d& edges) {
+  const Eigen::Vector3d part(header.GetQuaternB(), header.GetQuaternC(), header.GetQuaternD());
+  const double real_squared = 1 - part.squaredNorm();
+  constexpr double rounding = 1e-6, // of single precision
+      half_turn = 1e-7;             // NIfTI's own bound: the real part is then 0
+  if (!(real_squared >= -rounding))
+    refuse("has quatern_b, quatern_c, quatern_d of more than unit length, which are no rotation");
+  const Eigen::Quaterniond turn(real_squared < half_turn ? 0 : std::sqrt(real_squared), part.x(), part.y(),
+                                part.z());
+  VoxelMap map;
+  map.leftCols<3>() = turn.normalized().toRotationMatrix() * edges.asDiagonal();
+  map.col(3) = Eigen::Vector3d(header.GetQOffsetX(), header.GetQOffsetY(), header.GetQOffsetZ());
+  if (header.GetPixDim(0) < 0) map.col(2) *= -1;
+  return map;
+}
+
+/// Whether the sform leads to where the scanner or an aligned picture has the voxels. One to an atlas (codes
+/// 3 and up) gives way to a qform.
+bool has_sform(vtkNIFTIImageHeader& header) {
+  constexpr int of_atlas = 3;
+  return header.GetSFormCode() > 0 && !(header.GetSFormCode() >= of_atlas && header.GetQFormCode() > 0);
+}
+
+/// The grid spacings of pixdim, with which the sform must agree.
 Eigen::Vector3d voxel_of(vtkNIFTIImageReader& reader) {
   vtkNIFTIImageHeader& header = *reader.GetNIFTIHeader();
   const Eigen::Vector3d edges(reader.GetDataSpacing());
-  constexpr int of_atlas = 3;
-  if (header.GetSFormCode() > 0 && !(header.GetSFormCode() >= of_atlas && header.GetQFormCode() > 0)) {
-    Eigen::Matrix3d steps;
-    double rows[3][4];
-    header.GetSRowX(rows[0]);
-    header.GetSRowY(rows[1]);
-    header.GetSRowZ(rows[2]);
-    for (int row = 0; row < 3; ++row)
-      for (int a = 0; a < 3; ++a) steps(row, a) = rows[row][a];
-    const Eigen::Vector3d by_map = edges_of_voxel(steps);
+  if (has_sform(header)) {
+    const Eigen::Vector3d by_map = edges_of_voxel(sform_of(header).leftCols<3>());
     if (!((by_map - edges).array().abs() <= voxel_tolerance * edges.array()).all())
       refuse("says voxels of " + shown(edges) + " by its pixdim and of " + shown(by_map) +
              " by its sform, which must agree: set the one that is wrong");
   }
   return edges * unit_of_length(header);
+}
+
+/// The rotation nearest to steps at right angles. It is exact where they lie along axes of the world to the
+/// rounding of single precision.
+/// @throws std::runtime_error if they are left-handed
+Eigen::Matrix3d rotation_of(const Eigen::Matrix3d& steps) {
+  if (!(steps.determinant() > 0))
+    refuse(
+        "has a sform that mirrors the array, beside a qform that does not, or numbers in them that are none: "
+        "set the code of the one that is wrong to 0");
+  const Eigen::JacobiSVD<Eigen::Matrix3d> parts(steps.colwise().normalized(),
+                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d rotation = parts.matrixU() * parts.matrixV().transpose();
+  const Eigen::Matrix3d along_axes = rotation.array().round();
+  constexpr double rounding = 1e-6;
+  return rotation.isApprox(along_axes, rounding) ? along_axes : rotation;
 }
 
 /// The first number of a header, in either order of bytes, says which it is; VTK does not look at it.
@@ -192,6 +235,15 @@ void run_on(const std::string& path, const Action& action) {
   }
 }
 
+/// Opens a NIfTI file, and reads and checks what it says about its voxels.
+void read_header(vtkNIFTIImageReader& reader, const std::string& path) {
+  reader.SetFileName(path.c_str());
+  run_on(path, [&] { run_information(reader); });
+  if (const int n = reader.GetNumberOfScalarComponents(); n != 1)
+    refuse("has " + std::to_string(n) + " numbers a voxel, must have one");
+  check_header(reader, path);
+}
+
 constexpr std::uint64_t most_bytes_of_list = 1'000'000, most_bytes_of_project = 20'000'000'000;
 
 /// The content of the first file of a gzipped tar that has a name in its folder.
@@ -288,20 +340,38 @@ Volume read_inv3(const std::string& path, const VolumeBytes& bytes) {
 
 } // namespace
 
+Placement read_placement(const std::string& path) {
+  const vtkNew<vtkNIFTIImageReader> reader;
+  read_header(*reader, path);
+  vtkNIFTIImageHeader& header = *reader->GetNIFTIHeader();
+  Placement placement;
+  placement.is_by_sform = has_sform(header);
+  placement.code = placement.is_by_sform ? header.GetSFormCode() : header.GetQFormCode();
+  if (placement.code <= 0)
+    refuse("has no world coordinates, its sform_code and qform_code are 0: leave frame out");
+  const Eigen::Vector3d voxel = voxel_of(*reader);
+  VoxelMap map =
+      placement.is_by_sform ? sform_of(header) : qform_of(header, Eigen::Vector3d(reader->GetDataSpacing()));
+  if (reader->GetQFac() < 0) { // VTK reads slices in reverse order, so that the array is right-handed
+    map.col(3) += map.col(2) * (reader->GetDataExtent()[5] - reader->GetDataExtent()[4]);
+    map.col(2) *= -1;
+  }
+  const Eigen::Matrix3d rotation = rotation_of(map.leftCols<3>());
+  for (std::size_t a = 0; a < 3; ++a) placement.axes[a] = rotation.col(static_cast<int>(a));
+  placement.corner = unit_of_length(header) * map.col(3) - rotation * (voxel / 2);
+  return placement;
+}
+
 Volume read_volume(const std::string& path, const VolumeBytes& bytes) {
   if (std::filesystem::path(path).extension() == ".inv3") return read_inv3(path, bytes);
   const vtkNew<vtkNIFTIImageReader> reader;
-  reader->SetFileName(path.c_str());
-  run_on(path, [&] { run_information(*reader); });
+  read_header(*reader, path);
   Volume volume;
   const int* extent = reader->GetDataExtent();
   for (std::size_t a = 0; a < 3; ++a) {
     const auto n = static_cast<std::int64_t>(extent[2 * a + 1]) - extent[2 * a] + 1;
     volume.voxels[a] = n > 0 && n < std::numeric_limits<int>::max() ? static_cast<int>(n) : 0;
   }
-  if (const int n = reader->GetNumberOfScalarComponents(); n != 1)
-    refuse("has " + std::to_string(n) + " numbers a voxel, must have one");
-  check_header(*reader, path);
   volume.spacing = voxel_of(*reader);
   const int bytes_a_voxel = vtkDataArray::GetDataTypeSize(reader->GetDataScalarType());
   if (bytes_a_voxel < 1) refuse("has voxels of no type of numbers");

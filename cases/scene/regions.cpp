@@ -169,17 +169,6 @@ std::string reason_without_face(const Mesh& mesh, const Region& region) {
                      (nearest - *region.near).norm(), fmt::join(nearest, ", "));
 }
 
-/// Calls action(region) for every region of a definition.
-template<class Action>
-void for_each_region_of(Case& definition, const Action& action) {
-  for (Fixed& fixed : definition.fixed) action(fixed.region);
-  for (Moved& moved : definition.moved) action(moved.region);
-  for (Load& load : definition.loads) action(load.region);
-  for (AddedMass& mass : definition.masses) action(mass.region);
-  for (Measure& measure : definition.measures)
-    for_each_region(measure, [&](Region& region, bool) { action(region); });
-}
-
 } // namespace
 
 void find_nearest_nodes(const Mesh& mesh, Case& definition, std::vector<std::string>& remarks) {

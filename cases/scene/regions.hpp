@@ -24,6 +24,17 @@ std::vector<FaceNodes> surface_faces(const Mesh& mesh, const std::vector<Fixed>&
 /// @param surface  surface_faces()
 Selection select_patch(const Mesh& mesh, const std::vector<FaceNodes>& surface, const Region& region);
 
+/// Calls action(region) for every region of a definition.
+template<class Action>
+void for_each_region_of(Case& definition, const Action& action) {
+  for (Fixed& fixed : definition.fixed) action(fixed.region);
+  for (Moved& moved : definition.moved) action(moved.region);
+  for (Load& load : definition.loads) action(load.region);
+  for (AddedMass& mass : definition.masses) action(mass.region);
+  for (Measure& measure : definition.measures)
+    for_each_region(measure, [&](Region& region, bool) { action(region); });
+}
+
 /// Puts the node that is meant in the place of each point that a node nearest to it is asked for, in all
 /// regions of a definition. Refined meshes have the node too, and the point may have a nearer one there.
 /// @param remarks  receives how far each is

@@ -11,6 +11,7 @@
 #include "cases/scene/loads.hpp"
 #include "cases/scene/network.hpp"
 #include "cases/scene/regions.hpp"
+#include "cases/scene/world.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -249,15 +250,19 @@ void open_at_symmetry(const Mesh& mesh, const std::vector<Fixed>& symmetry, Tria
 }
 
 /// Reads the surface that a scene's case names, if it names one.
+/// @param placement  of a case in world coordinates: those of the file are such too
 /// @throws InputError, at the place in the case file, if it is none or has more than five million triangles
-void read_surface_of(Scene& scene) {
+void read_surface_of(Scene& scene, const std::optional<Placement>& placement) {
   constexpr std::size_t most = 5'000'000;
   const auto& named = scene.definition.surface;
   if (!named) return;
   try {
     scene.surface = named->contour ? label_surface(std::get<Labels>(scene.definition.body), *named->contour)
                                    : read_surface(named->file.path, &scene.remarks);
-    for (Eigen::Vector3d& vertex : scene.surface.vertices) vertex *= named->scale;
+    for (Eigen::Vector3d& vertex : scene.surface.vertices) {
+      vertex *= named->scale;
+      if (placement && !named->contour) vertex = placement->to_body(vertex);
+    }
   } catch (const std::runtime_error& error) {
     named->file.refuse_once(error.what());
   }
@@ -282,6 +287,7 @@ Scene make_scene(const Case& case_as_read) {
   Scene scene;
   scene.definition = case_as_read;
   const Case& definition = scene.definition;
+  const std::optional<Placement> placement = leave_world(scene.definition, scene.remarks);
   scene.mesh = cut(make_mesh(definition.body, scene.remarks, scene.node_masses), definition.removed);
   const bool is_tetrahedron = scene.mesh.shape == CellShape::tetrahedron;
   if (has_cells(definition.body)) settle_element(scene.definition, is_tetrahedron);
@@ -305,7 +311,7 @@ Scene make_scene(const Case& case_as_read) {
     });
   for (const Measure& measure : definition.measures) check_measure(scene, measure);
   if (definition.surface || !definition.landmarks.empty()) check_has_vtk();
-  read_surface_of(scene);
+  read_surface_of(scene, placement);
   return scene;
 }
 

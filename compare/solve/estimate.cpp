@@ -170,7 +170,9 @@ std::optional<BodySize> size_of(const cases::Case& definition) try {
     body.n_cells = std::max(1., in_body);
     grid.cells = of_grid;
   } else if (const auto* labels = std::get_if<cases::Labels>(&definition.body)) {
-    const cases::LabelGrid labelled = cases::read_label_grid(*labels);
+    const cases::LabelGrid labelled = cases::read_label_grid(
+        cases::is_in_world(definition.body) ? cases::on_grid(*labels, cases::placement_of(*labels))
+                                            : *labels);
     const auto& classes = labelled.class_of_cell;
     body.n_cells =
         static_cast<double>(classes.size() - cases::index(std::count(classes.begin(), classes.end(), 0)));

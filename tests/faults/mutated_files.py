@@ -2,7 +2,7 @@
 
 usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
 
-Kinds: case, dynamic, msh, tetrahedra, tetrahedra22, tetrahedra_vtu, tetrahedra_vtk, stl, obj, ply, skin, nifti, vtu, cells, vtk, vtp,
+Kinds: case, dynamic, msh, tetrahedra, tetrahedra22, tetrahedra_vtu, tetrahedra_vtk, stl, obj, ply, skin, nifti, nifti_world, vtu, cells, vtk, vtp,
 displacements, motion, pvd, network, nodes, network_alone, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the program may have more, in
 the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and without a word of a sanitizer's; a damaged kept result ends in
 the numbers of an undisturbed run. What offends is left in the folder that is named. The damage is the same in every run. Only Python's
@@ -294,6 +294,8 @@ class Nifti(Kind):
     """A picture of 12 x 3 x 2 voxels."""
     name = "body.nii"
     voxels = struct.pack("<72h", *([100] * 6 + [50] * 6) * 6)
+    numbers = [0, 39, *range(40, 56, 2), 70, 72, *range(76, 108, 4), 108, 112, 116, 123, 252, 254, 344]
+    keys = 'keep = "largest"'
 
     @property
     def whole(self):
@@ -312,7 +314,7 @@ class Nifti(Kind):
             return damaged(content, chance)
         data = bytearray(content)
         for _ in range(chance.randint(1, 3)):
-            at = chance.choice([0, 39, *range(40, 56, 2), 70, 72, *range(76, 108, 4), 108, 112, 116, 123, 252, 254, 344])
+            at = chance.choice(self.numbers)
             value = chance.choice([0, 1, -1, 2, 3, 4, 7, 9, 255, 1000, 32767, -32768])
             struct.pack_into(*(("<h", data, at, value) if chance.randrange(3) else
                                ("<f", data, at, chance.choice([0.0, -1.0, 1e-30, 1e30, float("nan"), float("inf"), 351.0, 1e9]))))
@@ -322,8 +324,21 @@ class Nifti(Kind):
         (self.folder / self.name).write_bytes(content)
         classes = "".join(f'[[body.classes]]\nname = "{name}"\nlower = {lower}\nupper = {upper}\n'
                           for name, lower, upper in (("bone", 80, 120), ("skin", 40, 60)))
-        body = f'[body]\nshape = "labels"\nfile = "{self.name}"\nedge = 1.5\nkeep = "largest"\n{classes}'
+        body = f'[body]\nshape = "labels"\nfile = "{self.name}"\nedge = 1.5\n{self.keys}\n{classes}'
         return springproof("run", "--only", "msm", self.case(body))
+
+
+class NiftiWorld(Nifti):
+    """The same with a quarter of a turn to the world, in both of NIfTI's forms, and a case in its coordinates."""
+    numbers = [*range(40, 48, 2), *range(76, 92, 4), 123, *2 * [252, 254, *range(256, 328, 4)]]
+    keys = 'frame = "world"\nkeep = [-1, 2, 3.5]\ncrop = [[-7, 0, 1], [1, 20, 7]]'
+
+    @property
+    def whole(self):
+        header = bytearray(super().whole)
+        struct.pack_into("<2h6f", header, 252, 1, 1, 0, 0, 0.5 ** 0.5, -1, 2, 3)
+        struct.pack_into("<12f", header, 280, 0, -2, 0, -1, 1, 0, 0, 2, 0, 0, 3, 3)
+        return bytes(header)
 
 
 class Displacements(Kind):
@@ -499,7 +514,8 @@ class Kept(Kind):
 
 
 KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "tetrahedra": Tetrahedra, "tetrahedra22": Tetrahedra22,
-         "tetrahedra_vtu": TetrahedraVtu, "tetrahedra_vtk": TetrahedraVtk, "stl": Stl, "obj": Obj, "ply": Ply, "skin": Skin, "nifti": Nifti, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
+         "tetrahedra_vtu": TetrahedraVtu, "tetrahedra_vtk": TetrahedraVtk, "stl": Stl, "obj": Obj, "ply": Ply, "skin": Skin, "nifti": Nifti,
+         "nifti_world": NiftiWorld, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
          "displacements": Displacements, "motion": Motion, "pvd": Pvd, "network": Network, "nodes": Nodes,
          "network_alone": NetworkAlone, "curve": Curve, "kept": Kept}
 

@@ -76,6 +76,42 @@ inline std::string nifti_of(const Volume& volume) {
   return file;
 }
 
+/// The picture's NIfTI file with some bytes of its header set.
+class Nifti {
+ public:
+  explicit Nifti(std::string content = nifti({12, 3, 2}) + bytes_of_picture<std::int16_t>())
+      : content_(std::move(content)) {}
+  template<class Value>
+  Nifti& put(std::size_t at, Value value) {
+    std::memcpy(&content_[at], &value, sizeof value);
+    return *this;
+  }
+  Nifti& lengths(double by) {
+    for (std::size_t a = 0; a < 3; ++a) put(80 + 4 * a, static_cast<float>(by * double(a + 1)));
+    return *this;
+  }
+  Nifti& units(char code) { return put(123, code); }
+  Nifti& map(std::int16_t sform, const Eigen::Matrix3f& steps, std::int16_t qform = 0,
+             const Eigen::Vector3f& offset = {0, 0, 0}) {
+    put(252, qform).put(254, sform);
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t a = 0; a < 3; ++a) put(280 + 16 * row + 4 * a, steps(int(row), int(a)));
+      put(292 + 16 * row, offset[int(row)]);
+    }
+    return *this;
+  }
+  /// Its qform.  @param quaternion  b, c, d
+  Nifti& turn(float qfac, const Eigen::Vector3f& quaternion, const Eigen::Vector3f& offset) {
+    put(76, qfac);
+    for (std::size_t a = 0; a < 3; ++a) put(256 + 4 * a, quaternion[int(a)]).put(268 + 4 * a, offset[int(a)]);
+    return *this;
+  }
+  operator std::string() const { return content_; }
+
+ private:
+  std::string content_;
+};
+
 /// A member of a tar.
 inline std::string member(const std::string& name, const std::string& content) {
   std::string header(512, '\0');

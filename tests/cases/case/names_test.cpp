@@ -44,6 +44,7 @@ TEST_CASE("every enumerator has one name, and the name leads back to it") {
   check_kinds<measures::Kind>(12);
   check_names<Statistic>(3);
   check_names<Axis>(3);
+  check_names<Frame>(2);
   check_names<Component>(4);
   check_names<TensorComponent>(10);
   check_names<ReferenceKind>(6);

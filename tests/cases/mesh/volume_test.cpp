@@ -40,31 +40,6 @@ std::vector<std::pair<std::string, std::string>> compressed(const std::string& v
   return {{"a.nii.gz", packed(nifti({12, 3, 2}) + voxels)}, {"a.inv3", packed(project(plist(), voxels))}};
 }
 
-/// A NIfTI file with some bytes of its header set.
-class Nifti {
- public:
-  template<class Value>
-  Nifti& put(std::size_t at, Value value) {
-    std::memcpy(&content_[at], &value, sizeof value);
-    return *this;
-  }
-  Nifti& lengths(double by) {
-    for (std::size_t a = 0; a < 3; ++a) put(80 + 4 * a, static_cast<float>(by * double(a + 1)));
-    return *this;
-  }
-  Nifti& units(char code) { return put(123, code); }
-  Nifti& map(std::int16_t sform, const Eigen::Matrix3f& steps, std::int16_t qform = 0) {
-    put(252, qform).put(254, sform);
-    for (std::size_t row = 0; row < 3; ++row)
-      for (std::size_t a = 0; a < 3; ++a) put(280 + 16 * row + 4 * a, steps(int(row), int(a)));
-    return *this;
-  }
-  operator std::string() const { return content_; }
-
- private:
-  std::string content_ = nifti({12, 3, 2}) + picture_bytes;
-};
-
 const Eigen::Matrix3f straight = Eigen::Vector3f(1, 2, 3).asDiagonal();
 
 } // namespace
