@@ -182,7 +182,9 @@ std::string find_client(const EngineFacts& facts, const League& league, std::opt
   for (const LeagueClient& one : league.clients)
     if (one.name == facts.name) {
       const std::string file = missing(one);
-      if (!file.empty()) return file + " is not there; ./do clients installs the engines";
+      if (!file.empty())
+        return file + " is not there; ./do clients installs the engines, and clients/README.md says how an "
+                      "installed springproof has them";
       client = one;
       return "";
     }
@@ -246,14 +248,21 @@ EngineDesign design_for_engine(const EngineRequest& request) {
     client.emplace();
     client->name = request.client->name;
     client->words = request.client->words;
-  } else
+  } else if (request.engine == Engine::xpbd) { // ours
+    client.emplace();
+    client->name = cases::name_of(cases::StepMethod::xpbd);
+    client->method = cases::StepMethod::xpbd;
+    client->substeps = {5, 20, 50};
+  } else {
     found.not_run = find_client(facts, league, client);
+  }
   if (!client) return found;
   const Judge judge(beam_of(found, options), 0);
   found.judged = judge.own(found.budget);
   std::vector<JudgedRow>& rows = found.judged->rows;
   if (request.client || found.budget.iterations > 0) {
-    rows.push_back(judge.ask({client->name, client->words}, found.budget));
+    rows.push_back(client->method ? judge.step(real_time_in(*client->method, found.budget), found.budget)
+                                  : judge.ask({client->name, client->words}, found.budget));
     return found;
   }
   league.budget.step = found.budget.step;
