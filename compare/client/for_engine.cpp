@@ -252,7 +252,9 @@ EngineDesign design_for_engine(const EngineRequest& request) {
     client.emplace();
     client->name = cases::name_of(cases::StepMethod::xpbd);
     client->method = cases::StepMethod::xpbd;
+    client->iterations = {1};
     client->substeps = {5, 20, 50};
+    client->options = {{}};
   } else {
     found.not_run = find_client(facts, league, client);
   }
