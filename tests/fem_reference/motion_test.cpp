@@ -119,7 +119,7 @@ cases::MaterialDynamics damped(cases::Element element) {
 
 } // namespace
 
-TEST_CASE("damped finite elements come to rest in their static equilibrium", "[verification]") {
+TEST_CASE("damped finite elements come to rest in their static equilibrium", "[verification][long]") {
   for (const auto formulation : {cases::Formulation::small_strain, cases::Formulation::log_strain})
     for (const auto element :
          {cases::Element::q1, cases::Element::q1_bbar, cases::Element::p2_p0, cases::Element::p2_p1}) {

@@ -86,9 +86,13 @@ TEST_CASE("an engine's springs have the stiffnesses of a lattice's, by the cells
   CHECK(std::none_of(uniform.numbers.begin(), uniform.numbers.end(), [](const compare::EngineNumber& one) {
     return one.name == "stiffness of an edge of one cell";
   }));
-  request = request_for(Engine::sofa);
+}
 
-  // Compliances: those of springs are the inverse, that of a volume stores a cell's energy, C²/(2 alpha).
+TEST_CASE("compliances of springs are the inverse, that of a volume stores a cell's energy, C²/(2 alpha)",
+          "[verification][long]") {
+  const auto is = [](double value) { return Approx(value).epsilon(1e-12); };
+  compare::EngineRequest request = request_for(Engine::sofa);
+  const EngineDesign design = compare::design_for_engine(request);
   for (const auto& [engine, name, factor] :
        {std::tuple{Engine::xpbd, "compliance of V of an inscribed tetrahedron, two a cell", 1.},
         {Engine::jolt, "compliance of 6 V of an inscribed tetrahedron, two a cell", 6.}}) {

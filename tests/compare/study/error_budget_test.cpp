@@ -32,7 +32,7 @@ const char* const small_load = "[[load]]\nregion = \"x+\"\nkind = \"traction\"\n
 
 compare::ErrorBudgets budgets_of(const cases::Case& definition) {
   compare::Request request;
-  request.meshes = 4;
+  request.meshes = 3;
   return compare::study_errors(compare::compare_case(definition, request), request);
 }
 
