@@ -317,7 +317,7 @@ Labels on_grid(const Labels& labels, const Placement& placement) {
   result.frame = Frame::grid;
   result.seed = placement.to_body(labels.seed);
   if (!labels.crop) return result;
-  const auto& [lower, upper] = *labels.crop;
+  const Vector3d lower = (*labels.crop)[0], upper = (*labels.crop)[1];
   Eigen::AlignedBox3d cover; // the array may lie askew
   for (int corner = 0; corner < 8; ++corner) {
     const auto end = [&](int a) { return (corner >> a & 1) != 0 ? upper[a] : lower[a]; };
