@@ -56,7 +56,7 @@ class Discretisation {
   std::vector<int> material_of_cell; ///< in the scene's materials; empty when there is but one
   /// Owned nodes with a pressure, and the integral of each one's shape function, mm³.
   std::vector<std::pair<int, double>> pressures;
-  long n_pressures = 0; ///< of all ranks
+  long n_pressures = 0; ///< all ranks'
 
   /// Full load of a scene that differs from this one in its loads alone, N per owned degree of freedom.
   std::vector<double> load_of(const cases::Scene& scene) const;

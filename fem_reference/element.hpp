@@ -39,8 +39,8 @@ struct ElementType {
   int n_points() const;
   /// Unknowns in a linear system for each node: its displacement, and a pressure, held where it has none.
   int n_unknowns_per_node() const { return pressure == Pressure::nodes ? 4 : 3; }
-  /// Numbers of a cell's state beside the displacement: pressures, those of its vertices too, or components
-  /// of bubbles. But for those of vertices they are condensed in the linear solve.
+  /// Numbers of a cell's state beside the displacement: pressures, those of its vertices too, or the bubbles'
+  /// components. But for those of vertices they are condensed in the linear solve.
   int n_internal() const { return n_pressure_modes + 3 * n_bubbles; }
 };
 

@@ -70,7 +70,7 @@ class Assembly {
   std::size_t n_internal_;
 };
 
-constexpr double volume_tolerance = 1e-12; ///< of a cell or of a pressure's shape function, relative
+constexpr double volume_tolerance = 1e-12; ///< a cell's or a pressure's shape function's, relative
 
 /// The discrete equations of a scene: internal force = load factor * load, or those of its motion. Supports
 /// are part of the equations: a step takes constrained degrees of freedom to where they have to be. Pressures

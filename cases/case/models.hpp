@@ -78,8 +78,8 @@ SPRINGPROOF_ENUMERATION(
 struct RealTime {
   StepMethod method = StepMethod::xpbd;
   int iterations = 10;           ///< a substep; of symplectic_euler there are none
-  std::optional<int> substeps{}; ///< of a step; absent: 1, of symplectic_euler as many as are stable
-  // Of a body without [dynamics], which is to come to rest:
+  std::optional<int> substeps{}; ///< in a step; absent: 1, of symplectic_euler as many as are stable
+  // For a body without [dynamics], which is to come to rest:
   double step = 1. / 60; ///< s
   double end = 20;       ///< s, within which it must
   double damping = 2;    ///< mass damping, 1/s

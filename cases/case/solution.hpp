@@ -78,7 +78,7 @@ struct FromEquilibrium {
     double time; ///< s of the body's own time
     long steps;
   };
-  std::optional<Rest> rest{}; ///< of steps in real time
+  std::optional<Rest> rest{}; ///< where steps in real time end
 };
 
 /// Norms of a displacement over the whole body at rest, for elements with nodes between the body's nodes,

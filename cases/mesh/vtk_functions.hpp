@@ -61,10 +61,10 @@ struct Volume {
 /// How a picture's array lies in the world: point (x, y, z) of a Volume is at
 /// corner + x axes[0] + y axes[1] + z axes[2].
 struct Placement {
-  std::array<Eigen::Vector3d, 3> axes{}; ///< of unit length, at right angles, right-handed
+  std::array<Eigen::Vector3d, 3> axes{}; ///< unit vectors at right angles, right-handed
   Eigen::Vector3d corner{0, 0, 0};       ///< mm
   bool is_by_sform = true;               ///< NIfTI's sform says so, else its qform
-  int code = 0;                          ///< of that form, > 0
+  int code = 0;                          ///< that form's, > 0
 
   /// A direction of the world, along the axes of the array.
   Eigen::Vector3d turned(const Eigen::Vector3d& direction) const {

@@ -111,7 +111,7 @@ double area_within(const Scene& scene, const Region& region) {
   return circle;
 }
 
-constexpr double tonnes_per_mm3 = 1e-12; ///< of kg/m³
+constexpr double tonnes_per_mm3 = 1e-12; ///< in 1 kg/m³
 constexpr double mm_per_m = 1e3;
 
 /// mm/s²

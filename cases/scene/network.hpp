@@ -9,8 +9,8 @@ namespace springproof::cases {
 /// the nodes that they act on.
 std::vector<std::string> loose_parts_of(const Scene& scene);
 
-/// Reads the springs of a scene's network, if it has one, and makes the finite elements' scene and the masses
-/// of one without cells.
+/// Reads the springs of a scene's network, if it has one. For one without cells it makes the masses and the
+/// finite elements' scene too.
 /// @param as_read  the case, whose nearest nodes are other ones on the finite elements' mesh
 /// @throws InputError, also when a spring without a rest length of its own joins nodes in one place, and when
 /// something needs masses and there are none

@@ -18,9 +18,9 @@ namespace {
 enum class Takes { compliances, stiffnesses, moduli };
 
 struct EngineFacts {
-  const char* name; ///< of its client in clients/league.toml, where it has one
+  const char* name; ///< its client's in clients/league.toml, where it has one
   Takes takes;
-  bool has_all_terms; ///< of a lattice; otherwise springs of Hooke's law and volumes of tetrahedra
+  bool has_all_terms; ///< a lattice's; otherwise springs of Hooke's law and volumes of tetrahedra
   std::vector<const char*> cannot;
   const char* without_client;   ///< how to find its error where no client comes with this program
   bool has_six_volumes = false; ///< constrains 6 V, not V

@@ -29,10 +29,10 @@ struct EngineDesign {
   cases::LinearElastic material;
   double edge, density;
   ClientBudget budget;
-  std::string design; ///< of the springs; empty where the engine takes moduli
+  std::string design; ///< the springs'; empty where the engine takes moduli
   std::vector<EngineNumber> numbers;
-  std::vector<std::string> cannot;    ///< have of the design, or of a body
-  std::vector<std::string> warnings;  ///< of the design
+  std::vector<std::string> cannot;    ///< what the engine lacks of the design, or of a body
+  std::vector<std::string> warnings;  ///< the design's
   std::optional<JudgedCase> judged{}; ///< a beam, with the engine's rows behind our own
   std::string not_run{};              ///< why there is no such row
 

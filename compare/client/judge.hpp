@@ -11,8 +11,8 @@ namespace springproof::compare {
 
 inline const std::string fem_model = "finite elements", springs_model = "springs"; ///< names of our own rows
 
-/// One way to answer a case: the finite elements on the case's mesh, our springs, these stepped by a method
-/// of simulators, or a client.
+/// One way to answer a case: the finite elements on the case's mesh, our springs, these stepped as simulators
+/// do, or a client.
 struct JudgedRow {
   std::string model;                    ///< "finite elements", "springs", the method's or the client's name
   std::optional<Introduction> client{}; ///< a method's, or a client's that came to it

@@ -20,8 +20,8 @@ struct NumberArray {
 
 /// Units of numbers that leave the program.
 struct Units {
-  double length; ///< of them in a mm
-  double force;  ///< of them in a N
+  double length; ///< how many make a mm
+  double force;  ///< how many make a N
 };
 
 struct NamedArray {

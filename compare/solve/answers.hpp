@@ -54,7 +54,7 @@ struct Answers {
   std::optional<msm::DesignResult> design; ///< absent when the springs were skipped or could not be designed
   std::optional<RefinedMeshes> refined;    ///< meshes of the finite elements' limit, if asked for
   std::optional<Peer> peer;                ///< when asked for
-  std::optional<Interpolated> interpolated{}; ///< of a side that was interpolated
+  std::optional<Interpolated> interpolated{}; ///< the side that was interpolated
   std::vector<std::string> msm_warnings{};    ///< what msm_source does and no answer to the case would
 
   /// A side that was asked for did not converge.

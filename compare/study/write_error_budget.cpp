@@ -33,7 +33,7 @@ std::string part_text(const ErrorPart& part) {
   return part.uncertainty > 0 ? percent + fmt::format(" +- {:.2g}", part.uncertainty) : percent;
 }
 
-constexpr double told_part = 1e-3; ///< of the whole: smaller parts are left out of sentences
+constexpr double told_part = 1e-3; ///< part of the whole: smaller ones are left out of sentences
 
 /// "-1.2 (law) + 15 (mesh)", without parts that are next to nothing.
 std::string sum_text(const ErrorBudget& budget) {

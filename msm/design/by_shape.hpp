@@ -44,10 +44,10 @@ struct ShapeFit {
 
 /// The stiffnesses k >= 0 of least
 ///   sum over nodes  V |S (C_k - C) S|² + |f_k - f|² / D,
-/// with  sum over nodes  V S (C_k - C) S = 0  in hexahedra whose springs can. C_k is the elasticity that half
-/// of every spring at the node adds, C that of Cauchy's solid with the material's mu (C12 = C44 = mu), f_k
-/// and f the forces on the node under the six strains S that the material stores equal energies for, D the
-/// mean of the node's springs over the directions, V its share of the cells' volume. Found by coordinate
+/// with  sum over nodes  V S (C_k - C) S = 0  in hexahedra whose springs can. C_k is the elasticity that the
+/// halves of all springs at the node add, C that of Cauchy's solid with the material's mu (C12 = C44 = mu),
+/// f_k and f the forces on the node under the six strains S that the material stores equal energies for, D
+/// the mean of the node's springs over the directions, V its share of the cells' volume. Found by coordinate
 /// descent from k l² = V mu times the share of the kind of spring, with which cubes have the hybrid lattice.
 /// The volume terms are what the springs lack of the bulk modulus in the mean over the mesh, k_v = K - 5/3 mu
 /// (sum k l²)/(15 sum mu V), of tetrahedra at their nodes.

@@ -69,7 +69,7 @@ class ProjectiveDynamics {
   const Lattice& lattice_;
   int iterations_, n_free_ = 0;
   Points factorised_;                                    ///< the inertia of the factor
-  std::vector<std::array<int, 3>> number_;               ///< of each point's free components; -1: constrained
+  std::vector<std::array<int, 3>> number_;               ///< each point's free components'; -1: constrained
   std::shared_ptr<Eigen::SimplicialLLT<Matrix>> factor_; ///< shared: a function can be copied
 
   template<class Action>

@@ -42,7 +42,7 @@ class VertexBlockDescent {
  private:
   const Lattice& lattice_;
   int iterations_, n_threads_;
-  std::vector<std::vector<int>> terms_; ///< of each node
+  std::vector<std::vector<int>> terms_; ///< those at each node
   Colours colours_;
   Points last_, last_moved_; ///< mm: where the step before began, and by how much it moved; empty: none yet
 
