@@ -60,7 +60,7 @@ case $command in
   build)  build ;;
   packages) install_missing ;;
   clients)
-    wanted='python3-numpy g++ pkg-config nlohmann-json3-dev libbullet-dev' # of reference and bullet
+    wanted='python3-numpy g++ pkg-config nlohmann-json3-dev libbullet-dev' # for reference and bullet
     command -v npm >/dev/null || wanted="$wanted npm"
     install "$wanted"
     npm ci --prefix clients --no-audit --no-fund >&2

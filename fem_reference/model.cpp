@@ -124,7 +124,7 @@ mechanics::VibratingBody vibrating_body(const cases::Scene& scene) {
   const AssembledBody body(scene, MPI_COMM_SELF);
   const Discretisation& d = body.discretisation;
   mechanics::VibratingBody result;
-  std::vector<int> number, of_dof; // of unknowns, and of displacements alone
+  std::vector<int> number, of_dof; // unknowns', and those of displacements alone
   int n_free = 0;
   const std::size_t n = cases::index(d.n_per_node());
   for (std::size_t i = 0; i < n * d.nodes.point.size(); ++i) {

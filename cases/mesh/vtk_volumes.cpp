@@ -72,7 +72,7 @@ VoxelMap sform_of(vtkNIFTIImageHeader& header) {
 VoxelMap qform_of(vtkNIFTIImageHeader& header, const Eigen::Vector3d& edges) {
   const Eigen::Vector3d part(header.GetQuaternB(), header.GetQuaternC(), header.GetQuaternD());
   const double real_squared = 1 - part.squaredNorm();
-  constexpr double rounding = 1e-6, // of single precision
+  constexpr double rounding = 1e-6, // in single precision
       half_turn = 1e-7;             // NIfTI's own bound: the real part is then 0
   if (!(real_squared >= -rounding))
     refuse("has quatern_b, quatern_c, quatern_d of more than unit length, which are no rotation");

@@ -75,7 +75,7 @@ for (let c = 0; c < hexahedra.rows; ++c)
     const nodes = corners.map((v) => hexahedra.at(c, v)), stiffness = hexahedra.at(c, 8) / 2;
     if (stiffness <= 0 || nodes.every((node) => held.whole.has(node))) continue;
     const six = sixVolumes(nodes), share = six / (6 * hexahedra.at(c, 9)); // a third of a parallelepiped
-    const compliance = (36 * share ** 2 * hexahedra.at(c, 9)) / stiffness; // of a constraint of 6 V
+    const compliance = (36 * share ** 2 * hexahedra.at(c, 9)) / stiffness; // for a constraint of 6 V
     const volume = new J.SoftBodySharedSettingsVolume(...nodes, compliance);
     volume.mSixRestVolume = six;
     shared.mVolumeConstraints.push_back(volume);

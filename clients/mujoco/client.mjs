@@ -7,8 +7,8 @@ import {
 
 const { values: options } = parseArgs({
   options: {
-    damping: { type: "string", default: "0" }, // of the elasticity, s
-    drag: { type: "string", default: "0" }, // of the nodes' slides, 1/s
+    damping: { type: "string", default: "0" }, // the elasticity's, s
+    drag: { type: "string", default: "0" }, // the nodes' slides', 1/s
     substeps: { type: "string", default: "1" },
   },
 });

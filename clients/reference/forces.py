@@ -164,7 +164,7 @@ class Body:
         stress = np.einsum("sef,sf->se", stiffness, np.einsum("sei,sei->se", d, d) - rest**2)
 
         def blocks(clamp):
-            slope = 2 * np.einsum("ea,sei->seai", ends, d)  # of D_e
+            slope = 2 * np.einsum("ea,sei->seai", ends, d)  # slope in D_e
             across = 2 * (np.maximum(stress, 0) if clamp else stress)
             return (np.einsum("sef,seai,sfbj->sabij", stiffness, slope, slope, optimize=True)
                     + np.einsum("se,ea,eb,ij->sabij", across, ends, ends, np.eye(3), optimize=True))

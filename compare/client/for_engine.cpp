@@ -94,7 +94,7 @@ std::vector<EngineNumber> numbers_of(const EngineFacts& facts, const msm::Design
     numbers.push_back({fmt::format("{} of {}", inverse ? "compliance" : "stiffness", name),
                        inverse ? 1 / (1e3 * stiffness) : 1e3 * stiffness, inverse ? "m/N" : "N/m"});
   };
-  if (design.springs.terms()) { // of four stiffnesses: those at the boundary are not halved
+  if (design.springs.terms()) { // four stiffnesses: those at the boundary are not halved
     add("every spring", k.internal_diagonal);
     return numbers;
   }

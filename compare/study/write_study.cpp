@@ -269,7 +269,7 @@ namespace {
 
 /// Why designs have no error, those with one reason together.
 void write_reasons(std::ostream& out, const std::vector<Trial>& designs) {
-  std::vector<std::pair<std::string, std::string>> names; // of each reason
+  std::vector<std::pair<std::string, std::string>> names; // those with each reason
   for (const Trial& trial : designs) {
     if (trial.worst) continue;
     const std::string reason =

@@ -205,7 +205,7 @@ TEST_CASE("the tetrahedra in place of volume terms have their energy under a sma
   const TemporaryFolder folder;
   const msm::Problem problem = springs_of({"msm.design=hybrid"});
   compare::export_springs(folder.path, ExportTarget::csv, "cube", problem);
-  const double change = 0.001; // of the volume
+  const double change = 0.001; // relative change of the volume
   double energy = 0, expected = 0;
   const auto rows = rows_of(folder, "volume_tetrahedra.csv");
   for (const auto& row : rows) {
