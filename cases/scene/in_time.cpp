@@ -14,19 +14,20 @@ bool jumps_between(const History& history, double begin, double end) {
   return std::adjacent_find(history.points.begin(), history.points.end(), is_jump) != history.points.end();
 }
 
-} // namespace
-
-Scene scene_before_start(const Scene& scene) {
+/// The static scene with the factors of one time.
+/// @param factor  returns a history's
+template<class Factor>
+Scene still_scene(const Scene& scene, const Factor& factor) {
   Scene still = scene;
   for (Scene::AppliedLoad& applied : still.loads) {
     Load& load = applied.load;
-    load.scale(load.history.just_before(0));
+    load.scale(factor(load.history));
     load.history = {};
   }
   for (auto& [selection, motion] : still.moved) {
-    const double factor = motion.history.just_before(0);
-    motion.displacement *= factor;
-    motion.angle *= factor;
+    const double part = factor(motion.history);
+    motion.displacement *= part;
+    motion.angle *= part;
     motion.history = {};
   }
   Case& definition = still.definition;
@@ -36,6 +37,17 @@ Scene scene_before_start(const Scene& scene) {
   definition.moved.clear();
   for (const auto& moved : still.moved) definition.moved.push_back(moved.motion);
   return still;
+}
+
+} // namespace
+
+Scene scene_before_start(const Scene& scene) {
+  return still_scene(scene, [](const History& history) { return history.just_before(0); });
+}
+
+Scene scene_at_end(const Scene& scene) {
+  return still_scene(
+      scene, [end = scene.definition.dynamics->end](const History& history) { return history.at(end); });
 }
 
 bool has_load_histories(const Scene& scene) {

@@ -140,6 +140,9 @@ void check_scaled(const Scene& scene);
 /// time 0, at full load, without [dynamics].
 Scene scene_before_start(const Scene& scene);
 
+/// The same with the factors at the motion's end.
+Scene scene_at_end(const Scene& scene);
+
 /// Whether the factor of a load follows time.
 bool has_load_histories(const Scene& scene);
 

@@ -152,10 +152,10 @@ void take_answer(Session& session, const cases::Scene& scene, ClientAnswer& foun
   } else {
     solution.displacement = session.frame(0, std::nullopt);
     session.end(1);
-    HeldAgainstCase held = hold_against_case(scene, solution.displacement);
-    solution.message = held.message;
-    found.warnings = std::move(held.warnings);
   }
+  HeldAgainstCase held = hold_against_case(scene, solution.displacement);
+  solution.message = held.message;
+  found.warnings = std::move(held.warnings);
   solution.status = cases::Status::converged;
   solution.load_reached = 1;
   msm::measure_cells(scene.mesh, solution);

@@ -215,9 +215,11 @@ std::optional<ExternalDisplacements> read_external(const std::vector<Question>& 
 
 HeldAgainstCase hold_against_case(const cases::Scene& scene, const std::vector<Vector3d>& displacement) {
   HeldAgainstCase found;
-  const msm::Problem problem = msm::make_problem(scene);
+  const bool moves = scene.definition.dynamics.has_value();
+  const msm::Problem problem = msm::make_problem(moves ? cases::scene_at_end(scene) : scene);
   const std::string supports = moved_supports(scene.mesh, problem, displacement);
   if (!supports.empty()) found.warnings.push_back(supports);
+  if (moves) return found; // springs do not tell a motion's inertia
   try {
     hold_against_springs(scene, problem, displacement, found);
   } catch (const cases::InputError&) { // the case has no springs that could say anything
@@ -229,8 +231,7 @@ HeldAgainstCase hold_against_case(const cases::Scene& scene, const std::vector<V
 Answers with_displacements(Answers answers, const cases::Scene& scene,
                            const ExternalDisplacements& external) {
   const cases::Mesh& mesh = scene.mesh;
-  HeldAgainstCase held; // a motion's inertia is not held against springs
-  if (!external.solution.trajectory) held = hold_against_case(scene, external.solution.displacement);
+  HeldAgainstCase held = hold_against_case(scene, external.solution.displacement);
   answers.msm = answer_of(mesh, [&] { return external.solution; });
   answers.msm.solution.message = held.message;
   answers.msm_warnings = std::move(held.warnings);

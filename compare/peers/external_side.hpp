@@ -99,7 +99,8 @@ struct HeldAgainstCase {
 /// gradient of the springs' energy, and |(g - F) . u|, over the larger one of |F . u| and the springs' whole
 /// g . u. Finite elements of the same body leave most of the first, and of the second what their stiffness
 /// differs by; half of it is left by displacements in other axes, in metres, or under another load.
-/// @param displacement  mm, one per node
+/// A motion is held against the supports at its end alone.
+/// @param displacement  mm, one per node; a motion's at its end
 HeldAgainstCase hold_against_case(const cases::Scene& scene,
                                   const std::vector<Eigen::Vector3d>& displacement);
 

@@ -30,6 +30,15 @@ TEST_CASE("a motion starts from what acts just before time 0") {
   CHECK(force(still.definition.loads[0]) == force(still.loads[0].load));
 }
 
+TEST_CASE("the scene at a motion's end has the factors of that time") {
+  Case definition = short_bar();
+  definition.dynamics.emplace().end = 0.5;
+  definition.loads = {{{"x+"}, loads::TotalForce{{1, 0, 0}}, {{{0., 0.}, {1., 1.}}}}};
+  const Scene still = scene_at_end(make_scene(definition));
+  CHECK_FALSE(still.definition.dynamics);
+  CHECK(std::get<loads::TotalForce>(still.loads[0].load.kind).value == Vector3d(0.5, 0, 0));
+}
+
 TEST_CASE("the nodes of all measures are watched, each once, and volumes where one is asked for") {
   Case definition = short_bar();
   definition.measures = {{"", measures::Displacement{{"x+ y+ z+"}}},

@@ -104,6 +104,12 @@ def test_csv(folder):
     for source in ("motion.csv", "steps"):
         values = {one["name"]: one["msm"] for one in measures(folder, "--msm-displacements", source)["measures"]}
         assert abs(values["drop"] + 1e-4 * 40 * 40 * N_STEPS) < 1e-12, values  # one product of the formula's, rounded
+    told = "held displacements are not as the case holds them"
+    assert not any(told in text for text in measures(folder, "--msm-displacements", "motion.csv")["warnings"])
+    shifted = [(time, [",".join([*line.split(",")[:3], "3", *line.split(",")[4:]]) for line in rows]) for time, rows in bodies()]
+    write_csv(folder, shifted)  # the clamped face has moved too
+    warnings = measures(folder, "--msm-displacements", "motion.csv")["warnings"]
+    assert any(told in text for text in warnings), warnings
 
 
 def test_broken(folder):
