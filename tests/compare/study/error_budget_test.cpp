@@ -45,7 +45,7 @@ TEST_CASE("springs with the material's moduli err by their mesh alone", "[verifi
   REQUIRE(budgets.springs.size() == 3);
   for (const compare::ErrorBudget& budget : {budgets.springs[0], budgets.springs[1]}) {
     INFO(budget.measure);
-    CHECK(std::abs(*budget.law.percent) <= budget.law.uncertainty);
+    CHECK(std::abs(*budget.law.percent) < 1); // what three lattices leave, of a mesh's part above 10
     CHECK(std::abs(*budget.mesh.percent) > 10);
     CHECK(*budget.step.percent == 0);
     CHECK(*budget.iterations.percent == 0);
@@ -70,8 +70,13 @@ TEST_CASE("parts of a motion's error add up to it within a tenth, and the finite
     CHECK(std::abs(*budget->sum() - *budget->whole) <= 0.1 * std::abs(*budget->whole));
     CHECK(*budget->iterations.percent == 0);
   }
-  CHECK(std::abs(*springs.law.percent) <= springs.law.uncertainty);
+  CHECK(std::abs(*springs.law.percent) < 1);
   CHECK(*fem.law.percent == 0);
+}
+
+TEST_CASE("springs with other moduli than the material's err by their law", "[verification]") {
+  const compare::ErrorBudget tip = budgets_of(beam(small_load, "design = \"uniform\"")).springs.at(0);
+  CHECK(std::abs(*tip.law.percent) > 5);
 }
 
 TEST_CASE("what iterations leave is the distance from the equilibrium of the same springs",
