@@ -87,8 +87,8 @@ std::optional<int> LinearSolver::negative_eigenvalues() const {
   std::optional<int> found = symmetry_ == TangentSymmetry::unsymmetric
                                  ? negative_pivots_of_symmetric_part(tangent_)
                                  : negative_pivots(get<Mat>(PCFactorGetMatrix, preconditioner));
-  if (found) *found -= n_pressures_;
-  return found;
+  if (found) *found -= n_pressures_; // an unknown count where a pressure that no motion feels is no negative pivot
+  return found && *found < 0 ? std::nullopt : found;
 }
 
 } // namespace springproof::fem_reference

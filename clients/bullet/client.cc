@@ -101,11 +101,12 @@ int main(int argc, char** argv) {
       {"--law", "corotational"}, {"--substeps", "1"}, {"--damping", ""}};
   for (int i = 1; i + 1 < argc; i += 2) options[argv[i]] = argv[i + 1];
   const bool is_corotational = options["--law"] == "corotational";
-  if (options.size() > 3 || argc % 2 == 0 || !(is_corotational || options["--law"] == "neohooke")) {
+  const int n_substeps = std::atoi(options["--substeps"].c_str());
+  if (options.size() > 3 || argc % 2 == 0 || n_substeps < 1 ||
+      !(is_corotational || options["--law"] == "neohooke")) {
     std::cerr << "--law corotational|neohooke, --substeps N, --damping S\n";
     return 2;
   }
-  const int n_substeps = std::stoi(options["--substeps"]);
   read_scene();
   const bool is_motion = header["question"] == "motion";
   const Array &nodes = arrays["nodes"], &materials = arrays["materials"], &supports = arrays["supports"],
