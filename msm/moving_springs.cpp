@@ -123,8 +123,8 @@ void MovingSprings::set_step(const mechanics::StepTerms& terms) {
 std::optional<mechanics::NonlinearProblem::Solved> MovingSprings::solve_at(Vector& at, double load_factor) {
   if (!method_) return std::nullopt;
   work_.linear_iterations += method_(*terms_, diagonal_, at);
-  const double left = size(NonlinearProblem::residual(at, load_factor), at).relative;
-  if (!std::isfinite(left))
+  const double left = terms_->is_substep ? 0 : size(NonlinearProblem::residual(at, load_factor), at).relative;
+  if (!std::isfinite(left) || !at.allFinite())
     throw cases::SolveError(
         "steps in real time: a node is at no finite place, or a cell is turned inside out "
         "that has no forces then");

@@ -3,7 +3,10 @@ import { parseArgs } from "node:util";
 import init from "jolt-physics/wasm-compat";
 import { answer, factor, heldNodes, readScene, say } from "../protocol.mjs";
 
-const { values: options } = parseArgs({ options: { damping: { type: "string", default: "0.1" } } });
+const { values: options } = parseArgs({
+  options: { damping: { type: "string", default: "0.1" }, order: { type: "string", default: "jolt" } },
+});
+if (!["jolt", "colours"].includes(options.order)) throw new Error('--order is "jolt" or "colours"');
 const J = await init();
 const scene = readScene();
 const { header, arrays } = scene;
@@ -53,12 +56,29 @@ for (let i = 0; i < n; ++i) {
 }
 ignored(!arrays.mass.values.some((m) => m > 0), "no masses: every node has 1 g");
 const springs = arrays.springs;
-for (let s = 0; s < springs.rows; ++s) {
+/// The springs' numbers in the order of springproof's "xpbd": each gets the first colour, in which no other one
+/// has its nodes.
+function inColours() {
+  const colours = [], taken = Array.from({ length: n }, () => new Set());
+  for (let s = 0; s < springs.rows; ++s) {
+    const [at, other] = [0, 1].map((end) => taken[springs.at(s, end)]);
+    let first = 0;
+    while (at.has(first) || other.has(first)) ++first;
+    at.add(first);
+    other.add(first);
+    (colours[first] ??= []).push(s);
+  }
+  return colours.flat();
+}
+const order = options.order === "colours" ? inColours() : [...Array(springs.rows).keys()];
+const edges = [];
+for (const s of order) {
   const a = springs.at(s, 0), b = springs.at(s, 1), k = springs.at(s, 2);
   if (k <= 0 || (held.whole.has(a) && held.whole.has(b))) continue;
   const edge = new J.SoftBodySharedSettingsEdge(a, b, 1 / k);
   edge.mRestLength = springs.at(s, 3);
   shared.mEdgeConstraints.push_back(edge);
+  edges.push(edge);
 }
 // Energy k_v/2 V0 (V/V0 - 1)^2. A parallelepiped's relative change of volume is to first order the mean of
 // its two inscribed tetrahedra's, so that each has half of the energy at its own change.
@@ -82,6 +102,14 @@ for (let c = 0; c < hexahedra.rows; ++c)
   }
 shared.AddFace(new J.SoftBodySharedSettingsFace(0, 1, 2, 0));
 shared.Optimize();
+// One thread goes through all edges in the order of the array, where the optimiser has put them into its own.
+if (options.order === "colours")
+  edges.forEach((edge, place) => {
+    const to = shared.mEdgeConstraints.at(place);
+    for (const end of [0, 1]) to.set_mVertex(end, edge.get_mVertex(end));
+    to.mRestLength = edge.mRestLength;
+    to.mCompliance = edge.mCompliance;
+  });
 
 const creation = new J.SoftBodyCreationSettings(shared, new J.RVec3(0, 0, 0), new J.Quat(0, 0, 0, 1), 1);
 creation.mNumIterations = iterations;
@@ -103,7 +131,8 @@ if (header.question === "rest" && arrays.support_motion.rows > 0)
   }
 
 say({ protocol: 1, name: "Jolt", version: "jolt-physics 1.1.0", method: "XPBD, edges of compliance 1/k",
-      settings: { iterations, linear_damping: Number(options.damping), step: header.step }, unsupported });
+      settings: { iterations, linear_damping: Number(options.damping), order: options.order,
+                  step: header.step }, unsupported });
 
 const ownGravity = new J.Vec3(0, 0, 0);
 /// Gravity is Jolt's own, which acts in each substep of a step. It has no forces on single vertices: loads

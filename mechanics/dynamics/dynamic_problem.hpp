@@ -38,6 +38,8 @@ struct StepTerms {
   double scale = 0;       ///< N: forces of the motion, which residuals are relative to
   /// Limit on the linear solver's iterations, over the whole step; none: as many as it takes.
   std::optional<int> enough_linear_iterations = {};
+  /// One of several to the time asked for, and not the last: nobody asks what it leaves of its equation.
+  bool is_substep = false;
 };
 
 /// Nonlinear equations of a body that has mass. Masses are in tonnes (N s²/mm). In a step in time

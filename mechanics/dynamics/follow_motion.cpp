@@ -59,8 +59,7 @@ FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, 
   record.add(0, 0, motion.now().displacement);
   try {
     for (int step = 1; step <= dynamics.n_steps(); ++step) {
-      for (int part = 1; part <= settings.substeps; ++part)
-        motion.advance((step - 1 + part / double(settings.substeps)) * dynamics.step);
+      motion.advance(step * dynamics.step);
       record.add(step, motion.now().time, motion.now().displacement);
     }
   } catch (const cases::SolveError& error) {
@@ -92,8 +91,7 @@ CameToRest come_to_rest(const BodyInTime& body, Vector start, double step, doubl
                             to_solution(motion.work()));
   double moved = 0, largest = 0;
   for (long n = 1; n <= last; ++n) {
-    for (int part = 1; part <= settings.substeps; ++part)
-      motion.advance((double(n) - 1 + part / double(settings.substeps)) * step);
+    motion.advance(double(n) * step);
     if (n % every != 0) continue;
     const std::vector<Eigen::Vector3d> now = body.displacement(motion.now().displacement);
     moved = largest = 0;

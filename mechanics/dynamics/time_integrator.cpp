@@ -29,11 +29,11 @@ TimeIntegrator::TimeIntegrator(DynamicProblem& problem, const cases::TimeScheme&
 }
 
 void TimeIntegrator::advance(double to) {
-  double step = to - now_.time;
+  double step = (to - now_.time) / settings_.substeps;
   for (int halvings = 0; now_.time < to;) {
     // A remainder left by rounding is no step of its own.
     const bool is_last = to - now_.time <= step * (1 + 1e-9);
-    if (try_step(is_last ? to : now_.time + step)) continue;
+    if (try_step(is_last ? to : now_.time + step, to)) continue;
     if (halvings++ == settings_.max_halvings) give_up(failure_);
     ++n_halvings_;
     step /= 2;
@@ -71,7 +71,7 @@ void TimeIntegrator::start() {
 }
 
 /// On success now_ is at the end of the step; otherwise it is as it was.
-bool TimeIntegrator::try_step(double to) {
+bool TimeIntegrator::try_step(double to, double target) {
   const double step = to - now_.time;
   const auto step_before = before_ ? std::optional(now_.time - before_->time) : std::nullopt;
   const StepCoefficients c = step_coefficients(scheme_, step, step_before);
@@ -89,6 +89,7 @@ bool TimeIntegrator::try_step(double to) {
     scale_ = terms.scale = std::max(scale_, norm(residual_));
   }
   terms.enough_linear_iterations = settings_.enough_linear_iterations;
+  terms.is_substep = to < target;
   if (!solve(terms, c, to)) return false;
   if (settings_.enough_linear_iterations &&
       work_.residual > 1) { // no solution at all: bodies fly off with it

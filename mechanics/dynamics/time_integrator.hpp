@@ -16,7 +16,7 @@ struct IntegrationSettings {
   EquilibriumSettings newton =
       nearly_linear();   ///< tolerance, iteration limits and should_stop hold for each step
   int max_halvings = 10; ///< limit per advance(); a step whose equation is not solved is halved
-  int substeps = 1;      ///< that follow_motion() makes of a step
+  int substeps = 1;      ///< that advance() makes of a step
   /// Limit on a step's linear iterations, in all; see in_real_time().
   std::optional<int> enough_linear_iterations = {};
 
@@ -45,7 +45,7 @@ class TimeIntegrator {
   TimeIntegrator(DynamicProblem& problem, const cases::TimeScheme& scheme, Motion start,
                  const IntegrationSettings& settings = {});
 
-  /// Steps to a time (s); a step whose equation is not solved is halved.
+  /// Steps to a time (s), in substeps; one whose equation is not solved is halved.
   /// @throws cases::SolveError with the time reached, where now() is left
   void advance(double to);
 
@@ -78,7 +78,7 @@ class TimeIntegrator {
   Vector place_, supports_; ///< w of the step; a displacement whose constrained entries are the step's
 
   void start();
-  bool try_step(double to);
+  bool try_step(double to, double target);
   void add_known_forces(const StepCoefficients& coefficients);
   void combine(const KnownMotion& known);
   bool solve(const StepTerms& terms, const StepCoefficients& coefficients, double to);

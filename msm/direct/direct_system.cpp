@@ -243,7 +243,7 @@ Matrix joined(const Problem& problem, const std::vector<double>& cell_mass, cons
   const auto masses = masses_beyond_lumped(problem.mesh, cell_mass);
   Matrix all(n_dofs, n_dofs);
   all.setFromTriplets(masses.begin(), masses.end());
-  if (damping) {
+  if (damping && !damping->links.empty()) {
     Tangent whole(*damping, std::vector<bool>(problem.is_constrained.size()));
     const Matrix lower = whole.assemble(damping->rest, Clamp::no);
     all += Matrix(lower.selfadjointView<Eigen::Lower>());

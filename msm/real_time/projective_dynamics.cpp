@@ -52,7 +52,7 @@ class ProjectiveDynamics {
   }
 
   int operator()(const StepEquation& step, Points& at) {
-    if (factorised_ != step.inertia) factorise(step);
+    if (!is_factor_of(step)) factorise(step);
     step.go_freely(at);
     for (int n = 0; n < iterations_; ++n) {
       const Points residual = residual_of(step, lattice_, at);
@@ -77,6 +77,12 @@ class ProjectiveDynamics {
     for (std::size_t p = 0; p < number_.size(); ++p)
       for (int c = 0; c < 3; ++c)
         if (const int number = number_[p][cases::index(c)]; number >= 0) action(p, c, number);
+  }
+
+  /// Steps of equal length have lengths that differ by rounding.
+  bool is_factor_of(const StepEquation& step) const {
+    return std::equal(step.inertia.begin(), step.inertia.end(), factorised_.begin(), factorised_.end(),
+                      [](const auto& now, const auto& then) { return now.isApprox(then, 1e-9); });
   }
 
   void factorise(const StepEquation& step) {

@@ -64,18 +64,35 @@ cases::Scene in_motion(cases::Scene scene) {
   return scene;
 }
 
+/// All components of points, point after point.
+Eigen::Map<Vector> flat(Points& points) {
+  return {points.front().data(), static_cast<Eigen::Index>(3 * points.size())};
+}
+
+/// The places in flat() of the entries of a problem's vectors.
+Eigen::VectorXi components_of(const Problem& problem) {
+  Points number;
+  for (std::size_t p = 0; p < problem.lattice.rest.size(); ++p) {
+    const auto first = static_cast<double>(3 * p);
+    number.emplace_back(first, first + 1, first + 2);
+  }
+  return to_vector(problem, number).cast<int>();
+}
+
 } // namespace
 
 MovingSprings::StepMethod step_method(const cases::RealTime& real_time, const Problem& problem,
                                       int n_threads) {
-  return [&problem, step = StepEquation{}, make = make_step(real_time, problem, n_threads)](
-             const mechanics::StepTerms& terms, const Vector& inertia, Vector& at) mutable {
-    step.inertia = to_points(problem, inertia);
-    step.origin = to_points(problem, terms.origin);
-    step.force = to_points(problem, terms.force);
-    Points points = to_points(problem, at);
+  const Points zero(problem.lattice.rest.size(), Eigen::Vector3d::Zero());
+  return [components = components_of(problem), step = StepEquation{zero, zero, zero}, points = zero,
+          make = make_step(real_time, problem, n_threads)](const mechanics::StepTerms& terms,
+                                                           const Vector& inertia, Vector& at) mutable {
+    flat(step.inertia)(components) = inertia;
+    flat(step.origin)(components) = terms.origin;
+    flat(step.force)(components) = terms.force;
+    flat(points)(components) = at;
     const int iterations = make(step, points);
-    at = to_vector(problem, points);
+    at = flat(points)(components);
     return iterations;
   };
 }

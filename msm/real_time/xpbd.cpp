@@ -3,6 +3,7 @@
 #include "msm/real_time/step_method.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace springproof::msm {
 
@@ -45,55 +46,136 @@ Constraint<Points> constraint_of(const VolumePatch& patch, const Points& x) {
   return constraint_of_volume(patch, x, patch.gradient(x));
 }
 
+/// Hooke's spring between two nodes, with its multiplier.
+struct HookeSpring {
+  std::array<int, 2> nodes;
+  double stiffness, rest_length, multiplier;
+};
+
 /// Projections with multipliers lambda = -U'(C), which Newton's method for one constraint after the other
 /// finds:
 ///   d lambda = -(U' + lambda)/(1 + U'' w),  w = grad C . D^-1 grad C,  dx = D^-1 grad C d lambda.
 /// For U = k C²/2 that is the update of Macklin et al. (2016), eq. 18, of compliance 1/k, times D in place of
-/// M/h². Constraints whose energy curves down take the first part of 1 alone.
+/// M/h². Constraints whose energy curves down take the first part of 1 alone. Hooke's springs come first,
+/// in an array in the order of their colours: nearly all bodies have no other terms, or few.
 class Xpbd {
  public:
   Xpbd(const Lattice& lattice, int iterations, int n_threads)
-      : lattice_(lattice), iterations_(iterations), n_threads_(n_threads) {
+      : lattice_(lattice), iterations_(iterations), n_threads_(n_threads),
+        x_(lattice.rest.size(), Eigen::Vector4d::Zero()), mobility_(x_) {
     if (!lattice.tetrahedra.empty())
       throw cases::InputError("msm.real_time.method: tetrahedra of biquadratic springs are no constraints of "
                               "one number; choose \"vertex_block_descent\" or \"implicit_euler\"");
     const auto nodes = nodes_of_terms(lattice);
-    colours_ = colour(nodes, lattice.rest.size());
-    multipliers_.resize(nodes.size());
+    std::vector<std::vector<int>> of_springs, of_others;
+    std::vector<const Spring*> springs;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      if (n < lattice.links.size() && lattice.links[n].spring.law.kind == LawKind::hooke) {
+        of_springs.push_back(nodes[n]);
+        springs.push_back(&lattice.links[n].spring);
+      } else {
+        of_others.push_back(nodes[n]);
+        others_.push_back(n);
+      }
+    for (const std::vector<int>& of_colour : colour(of_springs, lattice.rest.size())) {
+      for (const int number : of_colour) {
+        const auto& ends = of_springs[cases::index(number)];
+        const Spring& spring = *springs[cases::index(number)];
+        springs_.push_back({{ends[0], ends[1]}, spring.stiffness, spring.rest_length, 0});
+      }
+      ends_of_colours_.push_back(static_cast<std::ptrdiff_t>(springs_.size()));
+    }
+    colours_ = colour(of_others, lattice.rest.size());
+    multipliers_.resize(others_.size());
   }
 
   int operator()(const StepEquation& step, Points& at) {
-    step.go_freely(at);
-    for (std::size_t p = 0; p < at.size(); ++p) at[p] += lattice_.rest[p];
-    std::fill(multipliers_.begin(), multipliers_.end(), 0.);
-    for (int n = 0; n < iterations_; ++n)
+    begin(step, at);
+    for (int n = 0; n < iterations_; ++n) {
+      std::ptrdiff_t begin = 0;
+      for (const std::ptrdiff_t end : ends_of_colours_) {
+        mechanics::grid::on_threads(
+            end - begin, n_threads_, [&](std::ptrdiff_t s) { project(springs_[std::size_t(begin + s)]); },
+            64);
+        begin = end;
+      }
       for_each_item(colours_, n_threads_, [&](std::size_t number) {
-        with_term(lattice_, number, [&](const auto& term) { project(step, term, multipliers_[number], at); });
+        with_term(lattice_, others_[number], [&](const auto& term) { project(term, multipliers_[number]); });
       });
-    for (std::size_t p = 0; p < at.size(); ++p) at[p] -= lattice_.rest[p];
+    }
+    for (std::size_t p = 0; p < at.size(); ++p) at[p] = x_[p].head<3>() - lattice_.rest[p];
     return iterations_;
   }
 
  private:
   const Lattice& lattice_;
   int iterations_, n_threads_;
-  Colours colours_;
-  std::vector<double> multipliers_; ///< one per term
+  std::vector<HookeSpring> springs_;
+  std::vector<std::ptrdiff_t> ends_of_colours_;
+  std::vector<std::size_t> others_; ///< numbers in nodes_of_terms()
+  Colours colours_;                 ///< of others_
+  std::vector<double> multipliers_; ///< one for each of others_
+  std::vector<Eigen::Vector4d> x_,  ///< positions, mm; the fourth entry is 0, so that packs load them whole
+      mobility_;                    ///< D^-1, 0 on constrained components
+
+  /// Lets the points go freely from where the step begins.
+  void begin(const StepEquation& step, const Points& at) {
+    for (std::size_t p = 0; p < at.size(); ++p)
+      for (int c = 0; c < 3; ++c) {
+        const double inertia = step.inertia[p][c], mobility = inertia > 0 ? 1 / inertia : 0;
+        mobility_[p][c] = mobility;
+        x_[p][c] =
+            lattice_.rest[p][c] + (inertia > 0 ? step.origin[p][c] + mobility * step.force[p][c] : at[p][c]);
+      }
+    for (HookeSpring& spring : springs_) spring.multiplier = 0;
+    std::fill(multipliers_.begin(), multipliers_.end(), 0.);
+  }
+
+  /// The general projection with C = l, whose two quotients by l and 1 + U'' w are one.
+  void project(HookeSpring& spring) {
+    Eigen::Vector4d &x_i = x_[std::size_t(spring.nodes[0])], &x_j = x_[std::size_t(spring.nodes[1])];
+    const Eigen::Vector4d &d_i = mobility_[std::size_t(spring.nodes[0])],
+                          &d_j = mobility_[std::size_t(spring.nodes[1])];
+    const Eigen::Vector4d d = x_j - x_i;
+    const double squared = d.squaredNorm(), length = std::sqrt(squared),
+                 weight = (d_i + d_j).dot(d.cwiseAbs2()); // w l²
+    if (weight == 0) return;                              // between supports
+    const double force = spring.stiffness * (length - spring.rest_length) + spring.multiplier,
+                 change = -force * length / (squared + std::max(spring.stiffness, 0.) * weight);
+    spring.multiplier += change * length;
+    x_i -= change * d_i.cwiseProduct(d);
+    x_j += change * d_j.cwiseProduct(d);
+  }
 
   template<class Term>
-  static void project(const StepEquation& step, const Term& term, double& multiplier, Points& x) {
-    const auto nodes = nodes_of(term);
-    const auto constraint = constraint_of(term, at_nodes(nodes, x));
+  void project(const Term& term, double& multiplier) {
+    const auto& nodes = nodes_of(term);
+    const auto constraint = constraint_of(term, places_of(nodes));
+    const auto moved_by = [&](std::size_t a, const Eigen::Vector3d& by) -> Eigen::Vector3d {
+      return mobility_[cases::index(nodes[a])].template head<3>().cwiseProduct(by);
+    };
     double weight = 0;
     for (std::size_t a = 0; a < nodes.size(); ++a)
-      weight += constraint.gradient[a].dot(step.moved_by(cases::index(nodes[a]), constraint.gradient[a]));
+      weight += constraint.gradient[a].dot(moved_by(a, constraint.gradient[a]));
     if (weight == 0) return; // between supports
     const double change = -(constraint.force + multiplier) / (1 + std::max(constraint.slope, 0.) * weight);
     multiplier += change;
     for (std::size_t a = 0; a < nodes.size(); ++a)
-      x[cases::index(nodes[a])] += step.moved_by(cases::index(nodes[a]), change * constraint.gradient[a]);
+      x_[cases::index(nodes[a])].template head<3>() += moved_by(a, change * constraint.gradient[a]);
   }
-  static void project(const StepEquation&, const Tetrahedron&, double&, Points&) {} // refused above
+  void project(const Tetrahedron&, double&) {} // refused above
+
+  template<std::size_t n>
+  Positions<n> places_of(const std::array<int, n>& nodes) const {
+    Positions<n> places;
+    for (std::size_t v = 0; v < n; ++v) places[v] = x_[cases::index(nodes[v])].template head<3>();
+    return places;
+  }
+  Points places_of(const std::vector<int>& nodes) const {
+    Points places;
+    for (const int node : nodes) places.push_back(x_[cases::index(node)].head<3>());
+    return places;
+  }
 };
 
 } // namespace

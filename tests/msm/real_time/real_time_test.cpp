@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "cases/case/read_case.hpp"
 #include "mechanics/larger.hpp"
+#include "msm/design/design.hpp"
 #include "msm/real_time/colours.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -100,6 +101,49 @@ TEST_CASE("XPBD comes to implicit Euler's motion but for the turning of its grad
   CHECK(error[2] < error[1] / 2);
 }
 
+/// Steps of Macklin et al. (2019), of one iteration each, on springs alone under gravity: another program for
+/// what xpbd does with substeps, with velocities and masses in place of a step's equation.
+static msm::Points plain_xpbd(const cases::Scene& scene, const msm::Lattice& lattice, int n_steps, double h,
+                              const Vector3d& acceleration) {
+  const std::vector<double> masses = cases::point_masses(scene);
+  const std::vector<bool> is_held = cases::constrained_dofs(scene);
+  const double slowed = 1 + h * scene.definition.material_dynamics.mass_damping;
+  const auto weight = [&](int p) {
+    return is_held[3 * cases::index(p)] ? 0 : 1 / (masses[cases::index(p)] * slowed);
+  };
+  msm::Points x = lattice.rest, velocity(x.size(), Vector3d::Zero());
+  const msm::Colours order = msm::colour(msm::nodes_of_terms(lattice), x.size());
+  for (int step = 0; step < n_steps; ++step) {
+    const msm::Points before = x;
+    for (std::size_t p = 0; p < x.size(); ++p)
+      if (!is_held[3 * p]) x[p] += h * (velocity[p] + h * 1000 * acceleration) / slowed; // mm
+    for (const std::vector<int>& links : order)
+      for (const int number : links) {
+        const auto& [i, j, spring] = lattice.links[cases::index(number)];
+        const double compliance = 1 / (spring.stiffness * h * h), weights = weight(i) + weight(j);
+        if (weights == 0) continue;
+        const Vector3d d = x[cases::index(j)] - x[cases::index(i)];
+        const double multiplier = -(d.norm() - spring.rest_length) / (weights + compliance);
+        x[cases::index(i)] -= weight(i) * multiplier * d.normalized();
+        x[cases::index(j)] += weight(j) * multiplier * d.normalized();
+      }
+    for (std::size_t p = 0; p < x.size(); ++p) velocity[p] = (x[p] - before[p]) / h;
+  }
+  for (std::size_t p = 0; p < x.size(); ++p) x[p] -= lattice.rest[p];
+  return x;
+}
+
+TEST_CASE("substeps of XPBD are those of a plain program", "[verification]") {
+  const msm::SpringBody springs{msm::CellStiffness{0.2, 0.1, 0.3}};
+  cases::Scene scene = bar(StepMethod::xpbd, 1, sideways);
+  scene.definition.msm.real_time->substeps = 10;
+  const msm::Points ours =
+      msm::follow(scene, springs, {msm::Path::automatic, 2, {}, {}}, msm::in_substeps(scene, springs, 0.01))
+          .displacement;
+  const msm::Points plain = plain_xpbd(scene, msm::make_lattice(scene.mesh, springs), 30, 0.001, sideways);
+  CHECK(apart(ours, plain) < 1e-10); // sums in another order
+}
+
 TEST_CASE("symplectic Euler comes to the motion as its substeps grow, of first order", "[verification]") {
   // A converged motion: Newmark's method with short steps.
   cases::Scene fine = bar(StepMethod::symplectic_euler, 1, sideways);
@@ -194,6 +238,38 @@ TEST_CASE("a body comes to rest in the springs' equilibrium", "[verification]") 
     CHECK(few > 0.01);
     CHECK(more < few / 2);
   }
+}
+
+/// Where a vertex of the thesis's cube under small shear comes to rest, mm along the load: points of equal
+/// masses.
+static double sheared_cube_at_rest(StepMethod method, int iterations) {
+  cases::Case definition;
+  definition.body = cases::Box{{10, 10, 10}, {10, 10, 10}};
+  definition.fixed.push_back({cases::Region{"z-"}, {true, true, true}});
+  definition.material_dynamics = {1000., 0, 0};
+  definition.msm.mass = cases::PointMass::uniform;
+  cases::Scene scene = cases::make_scene(definition);
+  cases::Scene::AppliedLoad load{{}, {{}, cases::loads::NodalForce{{0.002, 0, 0}}}};
+  std::size_t vertex = 0; // x- y- z+
+  for (std::size_t p = 0; p < scene.mesh.nodes.size(); ++p) {
+    const Vector3d& node = scene.mesh.nodes[p];
+    if (node.z() > 9.9) load.selection.nodes.push_back(static_cast<int>(p));
+    if (node.isApprox(Vector3d(0, 0, 10))) vertex = p;
+  }
+  scene.loads.push_back(load);
+  scene.definition.msm.real_time = cases::RealTime{method, iterations, {}, 1. / 60, 20, 4};
+  msm::DesignRequest request;
+  request.material = cases::LinearElastic{0.3, 0.35};
+  request.options.design = cases::Design::moduli;
+  return msm::come_to_rest(scene, msm::design(request).springs, 2).displacement[vertex].x();
+}
+
+TEST_CASE("projective dynamics and implicit Euler rest where another program's do", "[verification]") {
+  // Trials of a hundred lines each, written before these methods and without their code; margins are the last
+  // digits that they printed.
+  CHECK(sheared_cube_at_rest(StepMethod::projective_dynamics, 1) == Approx(4.76).margin(0.005));
+  CHECK(sheared_cube_at_rest(StepMethod::projective_dynamics, 10) == Approx(2.58).margin(0.005));
+  CHECK(sheared_cube_at_rest(StepMethod::implicit_euler, 10) == Approx(0.628).margin(0.0005));
 }
 
 TEST_CASE("a network without cells comes to rest in its equilibrium, by every method", "[verification]") {
