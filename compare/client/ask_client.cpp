@@ -159,13 +159,15 @@ void take_answer(Session& session, const cases::Scene& scene, ClientAnswer& foun
   solution.status = cases::Status::converged;
   solution.load_reached = 1;
   msm::measure_cells(scene.mesh, solution);
-  if (!found.is_at_rest)
-    found.warnings.push_back(fmt::format(
-        "still moves after {:g} s{}", found.model_time,
-        found.mean_from ? fmt::format("; these are its mean places from {:g} s on", *found.mean_from) : ""));
+  if (!found.is_at_rest) found.warnings.push_back(describe_moving(found.model_time, found.mean_from));
 }
 
 } // namespace
+
+std::string describe_moving(double time, std::optional<double> mean_from) {
+  return fmt::format("still moves after {:g} s{}", time,
+                     mean_from ? fmt::format("; these are its mean places from {:g} s on", *mean_from) : "");
+}
 
 Client client_of(const std::string& argument) {
   const std::size_t at = argument.find('=');

@@ -39,6 +39,10 @@ struct ClientAnswer {
   }
 };
 
+/// Says that a body still moves.
+/// @param mean_from  s; absent: its places are those at the end
+std::string describe_moving(double time, std::optional<double> mean_from);
+
 /// Starts a client, confined, tells it the scene, and takes its frames as the springs' solution.
 /// @throws cases::InputError when no springs can be designed
 ClientAnswer ask_client(const cases::Scene& scene, const Client& client, const ClientBudget& budget);

@@ -71,11 +71,26 @@ JudgedRow fem_row(const cases::Scene& scene, const Answers& fem) {
   return row;
 }
 
-JudgedRow springs_row(const cases::Scene& scene, const Answers& fem) {
+/// What holds for clients holds for our steps in real time: a limit on wall-clock time, and mean places of a
+/// body that still moves at the end.
+JudgedRow springs_row(const cases::Scene& scene, const Answers& fem, const ClientBudget& budget) {
   std::optional<msm::DesignResult> design;
-  const Answer answer = solve_springs(scene, 1, design);
+  std::optional<mechanics::CameToRest> moving;
+  bool is_late = false;
+  msm::StepLimits limits;
+  limits.should_stop = [&, stopwatch = Stopwatch()] {
+    return is_late = stopwatch.seconds() > budget.seconds;
+  };
+  limits.tell_moving = [&](const mechanics::CameToRest& body) { moving = body; };
+  const Answer answer = solve_springs(scene, 1, design, limits);
   JudgedRow row = row_of(springs_model, scene, fem, answer);
+  if (is_late) row.failure += fmt::format(": it took longer than {:g} s", budget.seconds);
   row.milliseconds_a_step = milliseconds_a_step(answer);
+  if (moving && row.failure.empty()) {
+    row.is_at_rest = false;
+    row.warnings.push_back(describe_moving(moving->time, moving->mean_from));
+    row.milliseconds_a_step = 1e3 * answer.solve_seconds / static_cast<double>(moving->steps);
+  }
   if (const auto& from = answer.solution.from_equilibrium; from && from->rest)
     row.rests_after = from->rest->time;
   return row;
@@ -106,14 +121,15 @@ std::vector<std::string> set_steps(cases::Case& definition, const cases::RealTim
   return ignored;
 }
 
-JudgedRow stepped_row(cases::Scene scene, const Answers& fem, const cases::RealTime& real_time) {
+JudgedRow stepped_row(cases::Scene scene, const Answers& fem, const cases::RealTime& real_time,
+                      const ClientBudget& budget) {
   const std::string name = cases::name_of(real_time.method);
   const std::vector<std::string> ignored = set_steps(scene.definition, real_time);
   JudgedRow row{name};
   try {
     if (!scene.definition.material_dynamics.density)
       throw cases::InputError("the case has no material.density, which steps in time need");
-    row = springs_row(scene, fem);
+    row = springs_row(scene, fem, budget);
   } catch (const cases::InputError& error) {
     row.failure = error.what();
   }
@@ -162,7 +178,7 @@ Judge::Judge(cases::Scene scene, int meshes) : scene_(std::move(scene)) {
 
 JudgedCase Judge::own(const ClientBudget& budget) const {
   JudgedCase judged{scene_.definition.name, scene_.definition.dynamics.has_value(), false, {}};
-  judged.rows = {fem_row(scene_, fem_), springs_row(scene_, fem_)};
+  judged.rows = {fem_row(scene_, fem_), springs_row(scene_, fem_, budget)};
   for (JudgedRow& row : judged.rows) {
     say_whether_in_time(row, scene_, budget);
     for (const MeasuredValue& one : row.measures)
@@ -178,7 +194,7 @@ JudgedRow Judge::ask(const Client& client, const ClientBudget& budget) const {
 }
 
 JudgedRow Judge::step(const cases::RealTime& real_time, const ClientBudget& budget) const {
-  JudgedRow row = stepped_row(scene_, fem_, real_time);
+  JudgedRow row = stepped_row(scene_, fem_, real_time, budget);
   say_whether_in_time(row, scene_, budget);
   return row;
 }

@@ -9,7 +9,6 @@
 #include "mechanics/larger.hpp"
 #include "msm/model.hpp"
 #include "msm/moving_springs.hpp"
-#include "msm/real_time/real_time.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -283,17 +282,25 @@ void add_distance(const cases::Scene& scene, const msm::SpringBody& springs, int
 } // namespace
 
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design) {
+  return solve_springs(scene, n_threads, design, {});
+}
+
+Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design,
+                     const msm::StepLimits& limits) {
   if (scene.definition.dynamics)
-    return solve_side([&] { return *(design = design_for(scene)); },
-                      [&](const msm::DesignResult& designed) {
-                        const cases::Msm& given = scene.definition.msm;
-                        return msm::follow(
-                            scene, designed.springs, {msm::Path::automatic, n_threads, {}, {}},
-                            given.real_time
-                                ? msm::in_substeps(scene, designed.springs, scene.definition.dynamics->step)
-                            : given.iterations_per_step ? mechanics::in_real_time(*given.iterations_per_step)
-                                                        : mechanics::IntegrationSettings{});
-                      });
+    return solve_side(
+        [&] { return *(design = design_for(scene)); },
+        [&](const msm::DesignResult& designed) {
+          const cases::Msm& given = scene.definition.msm;
+          mechanics::IntegrationSettings settings;
+          if (given.real_time) {
+            settings = msm::in_substeps(scene, designed.springs, scene.definition.dynamics->step);
+            settings.newton.should_stop = limits.should_stop;
+          } else if (given.iterations_per_step) {
+            settings = mechanics::in_real_time(*given.iterations_per_step);
+          }
+          return msm::follow(scene, designed.springs, {msm::Path::automatic, n_threads, {}, {}}, settings);
+        });
   const auto& stress = scene.definition.stress;
   const mechanics::EquilibriumSettings settings = limited(scene.definition);
   msm::SpringBody springs;
@@ -306,7 +313,7 @@ Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm
       scene.definition.msm.real_time
           ? solve_side(take_springs,
                        [&](const msm::SpringBody& body) {
-                         return with_fields(scene, body, msm::come_to_rest(scene, body, n_threads));
+                         return with_fields(scene, body, msm::come_to_rest(scene, body, n_threads, limits));
                        })
           : solve_side(
                 [&] {

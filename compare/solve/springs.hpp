@@ -3,6 +3,7 @@
 #include "compare/solve/answers.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "msm/model.hpp"
+#include "msm/real_time/real_time.hpp"
 
 namespace springproof::compare {
 
@@ -47,5 +48,8 @@ cases::Solution with_fields(const cases::Scene& scene, const msm::SpringBody& sp
 /// @param n_threads  used by the multigrid path    @param design  absent: the caller is not told
 /// @throws InputError when no springs can be designed
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design);
+/// The same, with limits on steps in real time.
+Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design,
+                     const msm::StepLimits& limits);
 
 } // namespace springproof::compare

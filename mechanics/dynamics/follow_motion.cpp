@@ -76,7 +76,7 @@ FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, 
 }
 
 CameToRest come_to_rest(const BodyInTime& body, Vector start, double step, double end,
-                        const IntegrationSettings& settings) {
+                        const IntegrationSettings& settings, StillMoving still_moving) {
   constexpr double watched = 0.5, part_moved = 1e-4; // s
   cases::TimeScheme scheme;
   scheme.scheme = cases::Scheme::implicit_euler;
@@ -84,14 +84,23 @@ CameToRest come_to_rest(const BodyInTime& body, Vector start, double step, doubl
   std::vector<Eigen::Vector3d> before = body.displacement(start);
   TimeIntegrator motion(body.problem, scheme, {0, std::move(start), std::move(at_rest), {}}, settings);
   const long every = std::max(1L, std::lround(watched / step)), last = std::lround(end / step);
-  if (last < every)
+  const auto ended = [&](Vector state, long steps, std::optional<double> mean_from) {
+    CameToRest rest{std::move(state), motion.now().time, steps, mean_from, motion.work()};
+    rest.work.load_reached = 1;
+    rest.work.n_unknowns = body.problem.n_unknowns();
+    rest.work.work = body.problem.work();
+    return rest;
+  };
+  if (last < every && (still_moving == StillMoving::fails || last == 0))
     throw cases::SolveError(fmt::format("cannot come to rest within {:g} s: rest is {:.3g} s without motion; "
                                         "give more time",
                                         end, double(every) * step),
                             to_solution(motion.work()));
   double moved = 0, largest = 0;
+  Vector mean = Vector::Zero(motion.now().displacement.size());
   for (long n = 1; n <= last; ++n) {
     motion.advance(double(n) * step);
+    if (n > last / 2) mean += motion.now().displacement / double(last - last / 2);
     if (n % every != 0) continue;
     const std::vector<Eigen::Vector3d> now = body.displacement(motion.now().displacement);
     moved = largest = 0;
@@ -99,15 +108,10 @@ CameToRest come_to_rest(const BodyInTime& body, Vector start, double step, doubl
       moved = larger(moved, (now[i] - before[i]).norm());
       largest = larger(largest, now[i].norm());
     }
-    if (moved <= part_moved * largest) {
-      CameToRest rest{motion.now().displacement, motion.now().time, n, motion.work()};
-      rest.work.load_reached = 1;
-      rest.work.n_unknowns = body.problem.n_unknowns();
-      rest.work.work = body.problem.work();
-      return rest;
-    }
+    if (moved <= part_moved * largest) return ended(motion.now().displacement, n, {});
     before = now;
   }
+  if (still_moving == StillMoving::has_mean) return ended(std::move(mean), last, double(last / 2) * step);
   Equilibrium work = motion.work();
   work.work = body.problem.work();
   throw cases::SolveError(

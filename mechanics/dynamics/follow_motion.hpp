@@ -28,20 +28,26 @@ struct FollowedMotion {
 FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, Vector start,
                              const IntegrationSettings& settings = {});
 
+/// What becomes of a body that still moves at the end: a failure, or its mean places over the second half of
+/// the time, as clients give them.
+enum class StillMoving { fails, has_mean };
+
 /// Where a body without history comes to rest.
 struct CameToRest {
   Vector state;
   double time; ///< s
   long steps;
+  std::optional<double> mean_from; ///< s; it still moves, and the state is its mean from here on
   Equilibrium work; ///< totals of all steps; the residual is the last step's
 };
 
 /// Steps until the nodes have stayed within 1e-4 of the largest displacement for half a second, as clients
 /// do.
 /// @param step, end  s: of each step, and within which it must come to rest
-/// @throws cases::SolveError when it does not, or when a step's equation is not solved
+/// @throws cases::SolveError when it does not, unless its mean is wanted, or when a step's equation is not
+/// solved
 CameToRest come_to_rest(const BodyInTime& body, Vector start, double step, double end,
-                        const IntegrationSettings& settings);
+                        const IntegrationSettings& settings, StillMoving still_moving = StillMoving::fails);
 
 /// The same as follow_motion() above, over the ranks that share the states of a model. Collective.
 /// @param state  where the motion starts; afterwards where it ends

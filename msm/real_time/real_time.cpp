@@ -109,14 +109,18 @@ mechanics::IntegrationSettings in_substeps(const cases::Scene& scene, const Spri
   return settings;
 }
 
-cases::Solution come_to_rest(const cases::Scene& scene, const SpringBody& springs, int n_threads) {
+cases::Solution come_to_rest(const cases::Scene& scene, const SpringBody& springs, int n_threads,
+                             const StepLimits& limits) {
   const cases::RealTime& real_time = *scene.definition.msm.real_time;
   MovingBody body(in_motion(scene), springs, {Path::direct, n_threads, {}, {}});
   const auto points = [&](const Vector& state) { return body.to_points(state); };
   const Points start(scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
-  const mechanics::CameToRest rest =
-      mechanics::come_to_rest({body.motion(), points, {}}, body.to_vector(start), real_time.step,
-                              real_time.end, in_substeps(scene, springs, real_time.step));
+  mechanics::IntegrationSettings settings = in_substeps(scene, springs, real_time.step);
+  settings.newton.should_stop = limits.should_stop;
+  const mechanics::CameToRest rest = mechanics::come_to_rest(
+      {body.motion(), points, {}}, body.to_vector(start), real_time.step, real_time.end, settings,
+      limits.tell_moving ? mechanics::StillMoving::has_mean : mechanics::StillMoving::fails);
+  if (rest.mean_from) limits.tell_moving(rest);
   Problem problem = make_problem(scene);
   problem.lattice = make_lattice(scene.mesh, springs);
   const auto statics = make_direct_system(problem);
@@ -127,7 +131,7 @@ cases::Solution come_to_rest(const cases::Scene& scene, const SpringBody& spring
   solution.relaxation_iterations = solution.linear_iterations;
   cases::FromEquilibrium& from = solution.from_equilibrium.emplace(
       cases::FromEquilibrium{mechanics::EquilibriumSettings{}.tolerance, {}, {}, {}, {}, {}});
-  from.rest = {rest.time, rest.steps};
+  if (!rest.mean_from) from.rest = {rest.time, rest.steps};
   return solution;
 }
 
