@@ -22,6 +22,8 @@ constexpr double small_change = 1e-4;
 constexpr int most_rounds = 200;
 /// Raise of the energies that are fitted to, 1 each, beyond which springs cannot have the material's mean.
 constexpr double most_raised = 1;
+/// What the mean may lack of the material's energies of strains, 1 each.
+constexpr double lacks_of_mean = 1e-3;
 
 Vector6 mandel(const Vector3d& n) {
   Vector6 m;
@@ -203,6 +205,8 @@ bool descend(MeshSprings& springs, std::vector<NodeMisfit>& nodes, Mean wanted) 
     raised += by;
     for (NodeMisfit& node : nodes) node.energies -= std::sqrt(node.volume) * by;
   };
+  bool is_settled = false; // the stiffnesses are, for what is raised now
+  double lacks = 0;
   for (int round = 0; round < most_rounds; ++round) {
     double change = 0, largest = 0;
     for (MeshSpring& spring : springs.all) {
@@ -216,17 +220,22 @@ bool descend(MeshSprings& springs, std::vector<NodeMisfit>& nodes, Mean wanted) 
       change = mechanics::larger(change, std::abs(by));
       largest = mechanics::larger(largest, stiffness);
     }
-    if (change <= small_change * largest) break;
-    if (wanted == Mean::free) continue;
+    is_settled = change <= small_change * largest;
+    if (wanted == Mean::free) {
+      if (is_settled) break;
+      continue;
+    }
     mean.energies = raised;
     for (const NodeMisfit& node : nodes)
       mean.energies += std::sqrt(node.volume) / mean.volume * node.energies;
     mean.leave_what_mirrors_leave();
+    lacks = mean.energies.norm();
+    if (is_settled && lacks <= lacks_of_mean) break;
     raise(-mean.energies);
     if (!(raised.norm() <= most_raised)) return false;
   }
   raise(-raised);
-  return true;
+  return lacks <= lacks_of_mean;
 }
 
 /// k l² over V mu of a cell's springs: in cubes the hybrid lattice, in tetrahedra alike for all edges.
