@@ -239,6 +239,10 @@ EngineDesign design_for_engine(const EngineRequest& request) {
     found.warnings = springs.warnings;
     options = &design.options;
   }
+  if (!std::holds_alternative<cases::LinearElastic>(design.material))
+    found.warnings.push_back(
+        "the beam that is judged is linear elastic, with the material's moduli at small strains: "
+        "what its own law adds to the error is not in it");
   found.numbers.push_back({"density", found.density, "kg/m^3"});
   found.numbers.push_back(
       {"mass of a node of eight cells", found.density * std::pow(1e-3 * found.edge, 3), "kg"});

@@ -88,6 +88,17 @@ TEST_CASE("an engine's springs have the stiffnesses of a lattice's, by the cells
   }));
 }
 
+TEST_CASE("numbers of a material with another law say that the beam is linear elastic") {
+  const auto says = [](const compare::EngineRequest& request) {
+    return text_of(compare::design_for_engine(request)).find("the beam that is judged is linear elastic") !=
+           std::string::npos;
+  };
+  compare::EngineRequest request = request_for(Engine::usd, 0.3);
+  CHECK_FALSE(says(request));
+  request.design.material = cases::Ogden{{0.1}, {2}, 0.3};
+  CHECK(says(request));
+}
+
 TEST_CASE("compliances of springs are the inverse, that of a volume stores a cell's energy, C²/(2 alpha)",
           "[verification][long]") {
   const auto is = [](double value) { return Approx(value).epsilon(1e-12); };
