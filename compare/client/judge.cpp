@@ -42,8 +42,28 @@ std::optional<double> volume_error(const cases::Solution& fem, const cases::Solu
   return 100 * (whole(other.cell_volume) / whole(fem.cell_volume) - 1);
 }
 
+/// What rows are held against, and what tells the parts of their errors.
+struct Basis {
+  const cases::Scene& scene;
+  const Answers& fem;
+  Parts parts;
+  const SpringLattices* lattices; ///< null: of a motion
+};
+
+ErrorBudget without_parts(const std::string& measure, const std::string& reason) {
+  return {measure, {}, {}, {}, {}, {}, reason};
+}
+
+/// @param is_solved  nothing is left by iterations
+ErrorBudget parts_of(const Basis& basis, const Comparison& answer, const std::string& measure,
+                     bool is_solved) {
+  if (!basis.lattices) return without_parts(measure, "a body in motion has them by run --error-budget");
+  return basis.lattices->budget_of(answer, measure, is_solved);
+}
+
 /// What springs, ours or a client's, come to beside the finite elements.
-JudgedRow row_of(std::string model, const cases::Scene& scene, const Answers& fem, const Answer& answer) {
+/// @param is_solved  nothing is left by iterations
+JudgedRow row_of(std::string model, const Basis& basis, const Answer& answer, bool is_solved) {
   JudgedRow row{std::move(model)};
   if (!answer.converged()) {
     row.failure = answer.solution.message;
@@ -51,29 +71,36 @@ JudgedRow row_of(std::string model, const cases::Scene& scene, const Answers& fe
   }
   Answers springs;
   springs.msm = answer;
-  row.measures = compare_sides(scene, fem, springs).measures;
+  const Comparison compared = compare_sides(basis.scene, basis.fem, springs);
+  row.measures = compared.measures;
   add_worst(row, &MeasuredValue::error_percent);
-  row.volume = volume_error(fem.fem.solution, answer.solution);
+  if (basis.parts == Parts::told && row.worst) row.parts = parts_of(basis, compared, row.worst_at, is_solved);
+  row.volume = volume_error(basis.fem.fem.solution, answer.solution);
   if (answer.solution.inverted_cells > 0)
     row.warnings.push_back(fmt::format("{} cells are inverted", answer.solution.inverted_cells));
   return row;
 }
 
-JudgedRow fem_row(const cases::Scene& scene, const Answers& fem) {
+JudgedRow fem_row(const Basis& basis) {
+  const Answers& fem = basis.fem;
   JudgedRow row{fem_model};
   if (!fem.fem.converged()) {
     row.failure = fem.fem.solution.message;
     return row;
   }
-  row.measures = compare_sides(scene, fem, Answers{}).measures;
+  row.measures = compare_sides(basis.scene, fem, Answers{}).measures;
   add_worst(row, &MeasuredValue::fem_error_percent);
+  if (basis.lattices && row.worst) { // at rest their mesh is all of it
+    const ErrorPart none{0., 0, "zero by construction"};
+    row.parts = ErrorBudget{row.worst_at, none, {row.worst, 0, ""}, none, none, row.worst, ""};
+  }
   row.milliseconds_a_step = milliseconds_a_step(fem.fem);
   return row;
 }
 
 /// What holds for clients holds for our steps in real time: a limit on wall-clock time, and mean places of a
 /// body that still moves at the end.
-JudgedRow springs_row(const cases::Scene& scene, const Answers& fem, const ClientBudget& budget) {
+JudgedRow springs_row(const Basis& basis, const ClientBudget& budget) {
   std::optional<msm::DesignResult> design;
   std::optional<mechanics::CameToRest> moving;
   bool is_late = false;
@@ -82,8 +109,8 @@ JudgedRow springs_row(const cases::Scene& scene, const Answers& fem, const Clien
     return is_late = stopwatch.seconds() > budget.seconds;
   };
   limits.tell_moving = [&](const mechanics::CameToRest& body) { moving = body; };
-  const Answer answer = solve_springs(scene, 1, design, limits);
-  JudgedRow row = row_of(springs_model, scene, fem, answer);
+  const Answer answer = solve_springs(basis.scene, 1, design, limits);
+  JudgedRow row = row_of(springs_model, basis, answer, !basis.scene.definition.msm.real_time.has_value());
   if (is_late) row.failure += fmt::format(": it took longer than {:g} s", budget.seconds);
   row.milliseconds_a_step = milliseconds_a_step(answer);
   if (moving && row.failure.empty()) {
@@ -96,8 +123,48 @@ JudgedRow springs_row(const cases::Scene& scene, const Answers& fem, const Clien
   return row;
 }
 
-/// Gives a case steps that it may not have asked for.
-/// @return what of it they ignore
+JudgedRow stepped_row(const Basis& basis, const cases::RealTime& real_time, const ClientBudget& budget) {
+  cases::Scene scene = basis.scene;
+  const std::string name = cases::name_of(real_time.method);
+  const std::vector<std::string> ignored = set_steps(scene.definition, real_time);
+  JudgedRow row{name};
+  try {
+    if (!scene.definition.material_dynamics.density)
+      throw cases::InputError("the case has no material.density, which steps in time need");
+    row = springs_row({scene, basis.fem, basis.parts, basis.lattices}, budget);
+  } catch (const cases::InputError& error) {
+    row.failure = error.what();
+  }
+  row.model = name;
+  Json settings{{"iterations", real_time.iterations}, {"substeps", real_time.substeps}};
+  if (real_time.method == cases::StepMethod::symplectic_euler) settings.erase("iterations");
+  if (!scene.definition.dynamics) settings.update({{"step", real_time.step}, {"damping", real_time.damping}});
+  row.client = Introduction{"springproof", program_version(), cases::name_of(real_time.method),
+                            settings.dump(), ignored};
+  return row;
+}
+
+JudgedRow client_row(const Basis& basis, const Client& client, const ClientBudget& budget) {
+  const cases::Scene& scene = basis.scene;
+  const ClientAnswer found = ask_client(scene, client, budget);
+  JudgedRow row = row_of(client.name, basis, found.answer, false);
+  if (row.parts && (!found.introduction || !found.introduction->unsupported.empty()))
+    row.parts = without_parts(row.worst_at,
+                              "it ignores something of the scene, so that its springs may have another law");
+  else if (row.parts && row.parts->reason.empty())
+    row.parts->step = {std::nullopt, 0, "counted with the iterations"};
+  row.client = found.introduction;
+  row.command = shell_line(client.words);
+  row.warnings.insert(row.warnings.end(), found.warnings.begin(), found.warnings.end());
+  row.is_at_rest = found.is_at_rest;
+  if (row.failure.empty() && !scene.definition.dynamics && found.is_at_rest)
+    row.rests_after = found.model_time;
+  row.milliseconds_a_step = found.milliseconds_a_step();
+  return row;
+}
+
+} // namespace
+
 std::vector<std::string> set_steps(cases::Case& definition, const cases::RealTime& real_time) {
   using cases::Scheme;
   std::vector<std::string> ignored;
@@ -121,43 +188,6 @@ std::vector<std::string> set_steps(cases::Case& definition, const cases::RealTim
   return ignored;
 }
 
-JudgedRow stepped_row(cases::Scene scene, const Answers& fem, const cases::RealTime& real_time,
-                      const ClientBudget& budget) {
-  const std::string name = cases::name_of(real_time.method);
-  const std::vector<std::string> ignored = set_steps(scene.definition, real_time);
-  JudgedRow row{name};
-  try {
-    if (!scene.definition.material_dynamics.density)
-      throw cases::InputError("the case has no material.density, which steps in time need");
-    row = springs_row(scene, fem, budget);
-  } catch (const cases::InputError& error) {
-    row.failure = error.what();
-  }
-  row.model = name;
-  Json settings{{"iterations", real_time.iterations}, {"substeps", real_time.substeps}};
-  if (real_time.method == cases::StepMethod::symplectic_euler) settings.erase("iterations");
-  if (!scene.definition.dynamics) settings.update({{"step", real_time.step}, {"damping", real_time.damping}});
-  row.client = Introduction{"springproof", program_version(), cases::name_of(real_time.method),
-                            settings.dump(), ignored};
-  return row;
-}
-
-JudgedRow client_row(const cases::Scene& scene, const Answers& fem, const Client& client,
-                     const ClientBudget& budget) {
-  const ClientAnswer found = ask_client(scene, client, budget);
-  JudgedRow row = row_of(client.name, scene, fem, found.answer);
-  row.client = found.introduction;
-  row.command = shell_line(client.words);
-  row.warnings.insert(row.warnings.end(), found.warnings.begin(), found.warnings.end());
-  row.is_at_rest = found.is_at_rest;
-  if (row.failure.empty() && !scene.definition.dynamics && found.is_at_rest)
-    row.rests_after = found.model_time;
-  row.milliseconds_a_step = found.milliseconds_a_step();
-  return row;
-}
-
-} // namespace
-
 std::string JudgedRow::status() const {
   if (!failure.empty()) return "failed";
   return is_at_rest ? "answered" : "moving";
@@ -168,17 +198,27 @@ bool JudgedCase::has_failed() const {
                      [](const JudgedRow& row) { return row.status() != "answered"; });
 }
 
-Judge::Judge(cases::Scene scene, int meshes) : scene_(std::move(scene)) {
+Judge::Judge(cases::Scene scene, int meshes, Parts parts) : scene_(std::move(scene)), parts_(parts) {
   cases::refuse_network(scene_.definition, "judge and league, whose programs are told cells",
                         "run solves the springs of the network");
   if (scene_.definition.measures.empty())
     throw cases::InputError(scene_.definition.file + ": judge: the case has no [[measure]]; add one");
   fem_ = solve_reference(scene_, meshes);
+  if (parts == Parts::left_out || scene_.definition.dynamics || !fem_.fem.converged()) return;
+  Answers springs;
+  springs.msm = solve_springs(scene_, 1, springs.design);
+  if (springs.msm.converged())
+    lattices_.emplace(compare_sides(scene_, fem_, springs), Request{std::nullopt, meshes});
+}
+
+const SpringLattices* Judge::lattices() const {
+  return lattices_ ? &*lattices_ : nullptr;
 }
 
 JudgedCase Judge::own(const ClientBudget& budget) const {
   JudgedCase judged{scene_.definition.name, scene_.definition.dynamics.has_value(), false, {}};
-  judged.rows = {fem_row(scene_, fem_), springs_row(scene_, fem_, budget)};
+  judged.rows = {fem_row({scene_, fem_, parts_, lattices()}),
+                 springs_row({scene_, fem_, parts_, lattices()}, budget)};
   for (JudgedRow& row : judged.rows) {
     say_whether_in_time(row, scene_, budget);
     for (const MeasuredValue& one : row.measures)
@@ -188,13 +228,13 @@ JudgedCase Judge::own(const ClientBudget& budget) const {
 }
 
 JudgedRow Judge::ask(const Client& client, const ClientBudget& budget) const {
-  JudgedRow row = client_row(scene_, fem_, client, budget);
+  JudgedRow row = client_row({scene_, fem_, parts_, lattices()}, client, budget);
   say_whether_in_time(row, scene_, budget);
   return row;
 }
 
 JudgedRow Judge::step(const cases::RealTime& real_time, const ClientBudget& budget) const {
-  JudgedRow row = stepped_row(scene_, fem_, real_time, budget);
+  JudgedRow row = stepped_row({scene_, fem_, parts_, lattices()}, real_time, budget);
   say_whether_in_time(row, scene_, budget);
   return row;
 }
@@ -231,6 +271,7 @@ Json row_to_json(const JudgedRow& row) {
             {"reason", text_or_null(row.failure)},
             {"command", text_or_null(row.command)}};
   if (!row.chosen.empty()) json["chosen"] = row.chosen;
+  if (row.parts) json["parts"] = error_budget_to_json(*row.parts);
   if (row.client) {
     json["client"] = {{"name", row.client->name},
                       {"version", row.client->version},
@@ -254,6 +295,8 @@ std::vector<std::string> notes_of(const JudgedRow& row) {
   std::vector<std::string> notes;
   if (!row.failure.empty()) notes.push_back(fmt::format("{} failed: {}", row.model, row.failure));
   for (const std::string& warning : row.warnings) notes.push_back(fmt::format("{}: {}", row.model, warning));
+  if (row.parts && !row.parts->reason.empty())
+    notes.push_back(fmt::format("{}: no parts of its error: {}", row.model, row.parts->reason));
   if (!row.client) return notes;
   const Introduction& client = *row.client;
   notes.push_back(fmt::format("{}: {} {}, {}; {}", row.model, client.name, client.version, client.method,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compare/client/ask_client.hpp"
+#include "compare/study/error_budget.hpp"
 #include "compare/study/study.hpp"
 #include "compare/table/json.hpp"
 
@@ -29,6 +30,7 @@ struct JudgedRow {
   bool is_at_rest = true;
   std::vector<std::string> warnings{};
   std::vector<MeasuredValue> measures{};
+  std::optional<ErrorBudget> parts{}; ///< in a league: of the error at `worst_at`
 
   std::string status() const;
 };
@@ -42,12 +44,15 @@ struct JudgedCase {
   bool has_failed() const;
 };
 
+/// Whether rows tell where their errors come from.
+enum class Parts { left_out, told };
+
 /// A case whose finite elements are solved, once, for rows to be held against them.
 class Judge {
  public:
   /// @param meshes  meshes of the finite elements' limit, as in Request
   /// @throws cases::InputError when the case has no measure
-  Judge(cases::Scene scene, int meshes);
+  Judge(cases::Scene scene, int meshes, Parts parts = Parts::left_out);
   /// The finite elements and our springs.
   /// @throws cases::InputError when there are no springs
   JudgedCase own(const ClientBudget& budget) const;
@@ -58,10 +63,17 @@ class Judge {
  private:
   cases::Scene scene_;
   Answers fem_;
+  Parts parts_;
+  const SpringLattices* lattices() const;    ///< null: there are none
+  std::optional<SpringLattices> lattices_{}; ///< where rows tell their parts, of a body at rest
 };
 
 /// Steps by a method within a budget, but for its substeps.
 cases::RealTime real_time_in(cases::StepMethod method, const ClientBudget& budget);
+
+/// Gives a case steps that it may not have asked for.
+/// @return what of it they ignore
+std::vector<std::string> set_steps(cases::Case& definition, const cases::RealTime& real_time);
 
 /// Own rows, and one for each method and client.
 JudgedCase judge_clients(const cases::Scene& scene, const std::vector<cases::StepMethod>& methods,

@@ -18,14 +18,14 @@ namespace springproof::compare {
 namespace {
 
 /// Settings of a client beside its defaults.
-struct Settings {
+struct ClientSettings {
   int iterations = 0, substeps = 0; ///< 0: the default
   std::vector<std::string> options{};
 
   bool are_defaults() const { return iterations == 0 && substeps == 0 && options.empty(); }
 };
 
-std::string text_of(const Settings& settings) {
+std::string text_of(const ClientSettings& settings) {
   std::string text = settings.iterations > 0 ? fmt::format("{} iterations", settings.iterations) : "";
   if (settings.substeps > 0)
     text += fmt::format("{}{} substeps", text.empty() ? "" : ", ", settings.substeps);
@@ -33,12 +33,12 @@ std::string text_of(const Settings& settings) {
   return text;
 }
 
-std::vector<Settings> settings_of(const LeagueClient& client) {
-  std::vector<Settings> all;
+std::vector<ClientSettings> settings_of(const LeagueClient& client) {
+  std::vector<ClientSettings> all;
   for (const int iterations : client.iterations)
     for (const int substeps : client.substeps)
       for (const auto& options : client.options)
-        if (const Settings one{iterations, substeps, options}; !one.are_defaults()) all.push_back(one);
+        if (const ClientSettings one{iterations, substeps, options}; !one.are_defaults()) all.push_back(one);
   return all;
 }
 
@@ -54,7 +54,8 @@ std::string budget_text(const League& league) {
       "worst error whose step takes at most {:.3g} ms. A body has {:g} s to come to rest, an "
       "answer {:g} s of wall-clock time. An engine that is given the springs of the row above and "
       "errs otherwise has not brought them to equilibrium; a smaller error is then one of two that "
-      "cancel.",
+      "cancel. The error of a body at rest is the sum of what the springs' law errs by on an infinitely fine "
+      "mesh, what the cells add, and what iterations leave; a client's step is counted with its iterations.",
       league.most_milliseconds, league.budget.model_time, league.budget.seconds);
 }
 
@@ -75,7 +76,7 @@ std::string missing(const LeagueClient& client) {
 
 std::vector<JudgedRow> rows_of(const Judge& judge, const LeagueClient& client, const League& league,
                                const std::function<void(const std::string&)>& tell) {
-  const auto ask = [&](const Settings& settings) {
+  const auto ask = [&](const ClientSettings& settings) {
     tell(settings.are_defaults() ? client.name : client.name + ", " + text_of(settings));
     Client asked{client.name, client.words};
     asked.words.insert(asked.words.end(), settings.options.begin(), settings.options.end());
@@ -92,7 +93,7 @@ std::vector<JudgedRow> rows_of(const Judge& judge, const LeagueClient& client, c
   };
   std::vector<JudgedRow> rows{ask({})};
   rows.front().chosen = "defaults";
-  const std::vector<Settings> all = settings_of(client);
+  const std::vector<ClientSettings> all = settings_of(client);
   if (all.empty()) return rows;
   std::optional<JudgedRow> best;
   const auto consider = [&](JudgedRow row, const std::string& settings) {
@@ -101,7 +102,7 @@ std::vector<JudgedRow> rows_of(const Judge& judge, const LeagueClient& client, c
     if (!best || is_better(row, *best)) best = std::move(row);
   };
   consider(rows.front(), "defaults");
-  for (const Settings& settings : all) consider(ask(settings), text_of(settings));
+  for (const ClientSettings& settings : all) consider(ask(settings), text_of(settings));
   if (best) {
     rows.push_back(*best);
     return rows;
@@ -127,7 +128,7 @@ LeagueTable play(const League& league, const std::function<void(const std::strin
   for (const std::string& file : league.cases) {
     const cases::Case definition = cases::read_case(file);
     tell(definition.name + ": finite elements");
-    const Judge judge(make_scene_within_memory(definition), 0);
+    const Judge judge(make_scene_within_memory(definition), 0, Parts::told);
     JudgedCase judged = judge.own(league.budget);
     for (const LeagueClient* client : present)
       for (JudgedRow& row : rows_of(judge, *client, league,
@@ -158,21 +159,24 @@ void write_league_markdown(std::ostream& out, const LeagueTable& table, const Le
   for (const SkippedClient& client : table.skipped)
     fmt::print(out, "\n{} was skipped: {}.\n", client.name, client.reason);
   for (const JudgedCase& judged : table.cases) {
-    fmt::print(
-        out,
-        "\n## {}\n\nErrors from {}.\n\n| model | settings | error, % | +- | at | volume, % | rests "
-        "after, s | ms a step | real time | ignores |\n|---|---|---:|---:|---|---:|---:|---:|---|---:|\n",
-        judged.name,
-        judged.is_converged ? "the finite elements' limit" : "the finite elements on the same mesh");
+    fmt::print(out,
+               "\n## {}\n\nErrors from {}.\n\n| model | settings | error, % | +- | at | volume, % | rests "
+               "after, s | ms a step | real time | ignores | law, % | mesh, % | step, % | "
+               "iterations, % |\n|---|---|---:|---:|---|---:|---:|---:|---|---:|---:|---:|---:|---:|\n",
+               judged.name,
+               judged.is_converged ? "the finite elements' limit" : "the finite elements on the same mesh");
     for (const JudgedRow& row : judged.rows) {
       const Json json = row_to_json(row);
       const auto cell = [&](const char* key, const char* format = "{:.2f}") {
         return in_cell(json.value(key, Json()), format);
       };
-      fmt::print(out, "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", cell("model"), cell("chosen"),
+      fmt::print(out, "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |", cell("model"), cell("chosen"),
                  row.failure.empty() ? cell("error_percent") : "failed", cell("error_uncertainty"),
                  cell("at"), cell("volume_percent"), row.is_at_rest ? cell("rests_after") : "moves",
                  cell("milliseconds_a_step"), cell("in_real_time"), cell("ignored", "{:.0f}"));
+      for (const NamedPart& part : error_parts)
+        fmt::print(out, " {} |", row.parts ? part_text(row.parts.value().*part.part) : "-");
+      fmt::print(out, "\n");
     }
     fmt::print(out, "\n");
     std::set<std::string> printed; // both rows of a client may have the same

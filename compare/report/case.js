@@ -73,13 +73,16 @@ function measures() {
     ? " A norm is that of the difference, over the body or over time, and has no sign." : "")];
 }
 
+// A part of an error; 0 is what is zero by construction.
+const part_cell = ({ percent, uncertainty, reason }) =>
+  cell(missing(percent) ? "–" : reason ? "0" : with_bar(percent, uncertainty || null, signed));
+
 // The parts of every error: of the law, the mesh, the step and the iterations.
 function causes() {
   const budget = report.error_budget;
   if (!budget) return null;
   const parts = ["law", "mesh", "step", "iterations"];
-  const part = ({ percent, uncertainty, reason }) => cell(missing(percent) ? "–" : reason ? "0" : with_bar(percent, uncertainty || null, signed));
-  const line = (model) => (one) => row([row_head(typeset(one.measure)), text_cell(model), parts.map((name) => part(one[name])),
+  const line = (model) => (one) => row([row_head(typeset(one.measure)), text_cell(model), parts.map((name) => part_cell(one[name])),
     cell(missing(one.sum) ? "–" : signed(one.sum)), cell(missing(one.whole) ? "–" : signed(one.whole))]);
   const reasons = new Set([...budget.msm, ...budget.fem].flatMap((one) => [one.reason && `${one.measure}: ${one.reason}`,
     ...parts.map((name) => missing(one[name].percent) && one[name].reason && `${one.measure}: ${one[name].reason}`)]).filter(Boolean));

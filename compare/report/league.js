@@ -21,10 +21,12 @@ function league_table(one, index) {
       ` ± ${number(r.error_uncertainty)}`]), text_cell(r.at || "–"), cell(number(r.volume_percent)),
     cell(r.status === "moving" ? "moves" : number(r.rests_after)), cell(general(r.milliseconds_a_step, 3)),
     text_cell(missing(r.in_real_time) ? "–" : r.in_real_time ? "yes" : "no"),
-    cell(r.client && r.client.unsupported.length > 0 ? r.client.unsupported.length : "–")]));
+    cell(r.client && r.client.unsupported.length > 0 ? r.client.unsupported.length : "–"),
+    ...["law", "mesh", "step", "iterations"].map((part) => part_cell((r.parts || {})[part] || {}))]));
   return table("league-" + index, `${one.case}: errors from ${one.reference === "limit" ? "the finite elements’ limit" :
     "the finite elements on the same mesh"}`, row([text_head("model"), head("worst error, %"), text_head("at"), head("volume, %"),
-    head("rests after, s"), head("ms a step"), text_head("real time"), head("ignores")]), body(rows));
+    head("rests after, s"), head("ms a step"), text_head("real time"), head("ignores"), head("law, %"), head("mesh, %"),
+    head("step, %"), head("iterations, %")]), body(rows));
 }
 
 // What a client is, what it ignores and what is to be known of its answer.

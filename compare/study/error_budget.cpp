@@ -4,6 +4,7 @@
 #include "compare/provenance/machine.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/springs.hpp"
+#include "compare/study/measured_parts.hpp"
 #include "mechanics/dynamics/scheme.hpp"
 
 #include <algorithm>
@@ -16,18 +17,6 @@ namespace {
 
 using cases::index;
 using Eigen::Vector3d;
-using Field = std::vector<Vector3d>; ///< one vector per node; of a measure that is a number, (number, 0, 0)
-
-/// a + factor (b - c)
-Field moved(const Field& a, double factor, const Field& b, const Field& c) {
-  Field result(a.size());
-  for (std::size_t n = 0; n < a.size(); ++n) result[n] = a[n] + factor * (b[n] - c[n]);
-  return result;
-}
-
-Field difference(const Field& a, const Field& b) {
-  return moved(Field(a.size(), Vector3d::Zero()), 1, a, b);
-}
 
 /// The springs with nothing left that iterations leave.
 cases::Scene without_iteration_limit(cases::Scene scene) {
@@ -51,75 +40,6 @@ struct Lattice {
   cases::Solution solution;
   std::optional<cases::Solution> half_step{};
 };
-
-/// A value, such as another step or mesh would have it, and by how much it may be wrong.
-struct Known {
-  Field value, uncertainty;
-};
-
-/// What parts of an error at one measure are made of.
-class MeasuredParts {
- public:
-  MeasuredParts(const cases::Measure& measure, const cases::Scene& scene)
-      : measure_(measure), scene_(scene), is_field_(is_field_norm(measure.kind)) {}
-
-  /// What the measure is of a solution; nothing where it has no value.
-  std::optional<Field> value(const cases::Scene& scene, const cases::Solution& solution) const {
-    if (is_field_) {
-      Field field = solution.displacement; // the nodes of the body's own mesh are the first
-      field.resize(scene_.mesh.nodes.size());
-      return field;
-    }
-    const auto number = value_of(*find_named(scene.definition.measures, measure_.name), scene, solution);
-    if (!number || !std::isfinite(*number)) return std::nullopt;
-    return Field{{*number, 0, 0}};
-  }
-
-  /// The limit of values on meshes from coarse to fine, or why there is none.
-  std::variant<Known, std::string> limit(const std::vector<Field>& coarse_to_fine) const {
-    if (is_field_) {
-      std::vector<const Field*> fields;
-      for (const Field& field : coarse_to_fine) fields.push_back(&field);
-      auto found = find_limit(fields, [this](const Field& field) { return size(field); });
-      if (auto* reason = std::get_if<std::string>(&found)) return *reason;
-      auto& limit = std::get<FieldLimit>(found);
-      return Known{std::move(limit.value), std::move(limit.uncertainty)};
-    }
-    std::vector<double> numbers;
-    for (const Field& field : coarse_to_fine) numbers.push_back(field[0][0]);
-    const auto found = find_limit(numbers);
-    if (const auto* reason = std::get_if<std::string>(&found)) return *reason;
-    return of_number(std::get<Limit>(found));
-  }
-
-  static Known of_number(const Limit& limit) {
-    return {Field{{limit.value, 0, 0}}, Field{{limit.uncertainty, 0, 0}}};
-  }
-
-  double size(const Field& field) const {
-    return is_field_ ? field_norm(measure_.kind, scene_.mesh, field) : std::abs(field[0][0]);
-  }
-
-  /// A difference in percent of the truth, with a number's sign; of a field its share in the whole
-  /// difference, p.e/|e|, where 4 p.e = |p + e|² - |p - e|².
-  double percent(const Field& part, const Field& whole, const Field& truth) const {
-    if (!is_field_) return 100 * part[0][0] / truth[0][0];
-    const double sum = size(moved(part, 1, whole, Field(whole.size(), Vector3d::Zero()))),
-                 rest = size(difference(part, whole)), all = size(whole);
-    return all > 0 ? 100 * (sum * sum - rest * rest) / (4 * all * size(truth)) : 0;
-  }
-
- private:
-  const cases::Measure& measure_;
-  const cases::Scene& scene_;
-  bool is_field_;
-};
-
-/// What the step of a motion adds to a value: value - f0 with Richardson's f0 = f2 + (f2 - f1)/(2^p - 1).
-Field step_part(const Field& value, const Field& half_step, int order) {
-  const double factor = std::pow(2, order) / (std::pow(2, order) - 1);
-  return moved(Field(value.size(), Vector3d::Zero()), factor, value, half_step);
-}
 
 /// What a lattice is left unsolved for.
 constexpr double most_seconds = 60;
@@ -239,7 +159,8 @@ class Budget {
     return budget;
   }
 
-  ErrorBudget of_springs(const std::vector<Lattice>& lattices, const std::string& note) {
+  /// @param is_solved  nothing is left by iterations
+  ErrorBudget of_springs(const std::vector<Lattice>& lattices, const std::string& note, bool is_solved) {
     const auto own = parts_.value(scene_, answers_.msm.solution);
     if (!own) return {measure_.name, {}, {}, {}, {}, {}, "the springs have no such value"};
     whole_ = difference(*own, truth_);
@@ -259,9 +180,8 @@ class Budget {
       budget.law = budget.mesh = budget.step = budget.iterations = unknown(note);
       return budget;
     }
-    budget.iterations = has_iteration_limit(scene_.definition.msm)
-                            ? part(difference(*own, values.front()), zero())
-                            : ErrorPart{0., 0, by_construction};
+    budget.iterations =
+        is_solved ? ErrorPart{0., 0, by_construction} : part(difference(*own, values.front()), zero());
     const bool moves = scene_.definition.dynamics.has_value();
     budget.step = moves && steps.empty() ? unknown(note) : step(moves ? steps.front() : zero());
     const auto limit = values.size() == 1 ? note : parts_.limit(values);
@@ -383,14 +303,37 @@ ErrorBudgets study_errors(const Comparison& comparison, const Request& request) 
     half_step = std::move(half.solution);
   }
   const std::vector<Lattice> lattices = Lattices(comparison, request, budgets).all;
+  const bool is_solved = !has_iteration_limit(comparison.scene.definition.msm);
   for (const cases::Measure& measure : comparison.scene.definition.measures) {
     Budget budget(measure, comparison);
     const std::string why = budget.find_truth(comparison.mesh_study, half_step ? &*half_step : nullptr);
     const ErrorBudget none{measure.name, {}, {}, {}, {}, {}, why};
-    budgets.springs.push_back(why.empty() ? budget.of_springs(lattices, budgets.note) : none);
+    budgets.springs.push_back(why.empty() ? budget.of_springs(lattices, budgets.note, is_solved) : none);
     budgets.fem.push_back(why.empty() ? budget.of_fem() : none);
   }
   return budgets;
+}
+
+struct SpringLattices::All {
+  std::vector<Lattice> lattices;
+  std::string note;
+};
+
+SpringLattices::SpringLattices(const Comparison& solved, const Request& request)
+    : all_([&] {
+        auto all = std::make_shared<All>();
+        ErrorBudgets told;
+        all->lattices = Lattices(solved, request, told).all;
+        all->note = told.note;
+        return all;
+      }()) {}
+
+ErrorBudget SpringLattices::budget_of(const Comparison& answer, const std::string& measure,
+                                      bool is_solved) const {
+  Budget budget(*find_named(answer.scene.definition.measures, measure), answer);
+  const std::string why = budget.find_truth(answer.mesh_study, nullptr);
+  if (!why.empty()) return {measure, {}, {}, {}, {}, {}, why};
+  return budget.of_springs(all_->lattices, all_->note, is_solved);
 }
 
 } // namespace springproof::compare

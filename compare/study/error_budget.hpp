@@ -2,6 +2,7 @@
 
 #include "compare/gates/comparison.hpp"
 
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <ostream>
@@ -64,12 +65,32 @@ cases::Scene finer_lattice(const cases::Scene& scene);
 /// @return a note and no budgets where a model has no answer
 ErrorBudgets study_errors(const Comparison& comparison, const Request& request);
 
+/// The springs of a case at rest on its own and finer lattices, which all answers by these springs share.
+class SpringLattices {
+ public:
+  /// @param solved  compared in equilibrium, on one rank
+  SpringLattices(const Comparison& solved, const Request& request);
+  /// Parts of the error of an answer by these springs at a measure of the case.
+  /// @param is_solved  nothing is left by iterations, and by steps on which a place of rest depends
+  ErrorBudget budget_of(const Comparison& answer, const std::string& measure, bool is_solved) const;
+
+ private:
+  struct All;
+  std::shared_ptr<const All> all_;
+};
+
 /// A table of both models, and a sentence on the worst measure of the springs: its parts, whether they
 /// cancel, what to change first.
 void write_error_budget_text(std::ostream& out, const ErrorBudgets& budgets);
 
-/// {"lattices", "note", "advice": [sentences], "msm": [{"measure", "law": {"percent", "uncertainty",
-/// "reason"}, "mesh", "step", "iterations", "sum", "whole", "cancels", "reason"}], "fem": [...]}
+/// "+1.20 +- 0.3"; "0" of what is zero by construction, "-" of what is not known.
+std::string part_text(const ErrorPart& part);
+
+/// {"measure", "law": {"percent", "uncertainty", "reason"}, "mesh", "step", "iterations", "sum", "whole",
+/// "cancels", "reason"}
+nlohmann::ordered_json error_budget_to_json(const ErrorBudget& budget);
+
+/// {"lattices", "note", "advice": [sentences], "msm": [budgets], "fem": [budgets]}
 nlohmann::ordered_json error_budgets_to_json(const ErrorBudgets& budgets);
 
 } // namespace springproof::compare

@@ -15,24 +15,6 @@ Json part_to_json(const ErrorPart& part) {
   return json;
 }
 
-Json budget_to_json(const ErrorBudget& budget) {
-  Json json{{"measure", budget.measure}};
-  for (const NamedPart& named : error_parts) json[named.name] = part_to_json(budget.*named.part);
-  json["sum"] = budget.sum();
-  json["whole"] = budget.whole;
-  json["cancels"] = budget.cancels();
-  json["reason"] = text_or_null(budget.reason);
-  return json;
-}
-
-/// "+1.20 +- 0.3"; "0" of what is zero by construction, "-" of what is not known.
-std::string part_text(const ErrorPart& part) {
-  if (!part.percent) return "-";
-  if (!part.reason.empty()) return "0";
-  const std::string percent = fmt::format("{:+.2f}", *part.percent);
-  return part.uncertainty > 0 ? percent + fmt::format(" +- {:.2g}", part.uncertainty) : percent;
-}
-
 constexpr double told_part = 1e-3; ///< part of the whole: smaller ones are left out of sentences
 
 /// "-1.2 (law) + 15 (mesh)", without parts that are next to nothing.
@@ -79,12 +61,29 @@ std::vector<std::string> advice(const ErrorBudgets& budgets) {
 
 } // namespace
 
+std::string part_text(const ErrorPart& part) {
+  if (!part.percent) return "-";
+  if (!part.reason.empty()) return "0";
+  const std::string percent = fmt::format("{:+.2f}", *part.percent);
+  return part.uncertainty > 0 ? percent + fmt::format(" +- {:.2g}", part.uncertainty) : percent;
+}
+
+Json error_budget_to_json(const ErrorBudget& budget) {
+  Json json{{"measure", budget.measure}};
+  for (const NamedPart& named : error_parts) json[named.name] = part_to_json(budget.*named.part);
+  json["sum"] = budget.sum();
+  json["whole"] = budget.whole;
+  json["cancels"] = budget.cancels();
+  json["reason"] = text_or_null(budget.reason);
+  return json;
+}
+
 Json error_budgets_to_json(const ErrorBudgets& budgets) {
   return {{"lattices", budgets.lattices},
           {"note", text_or_null(budgets.note)},
           {"advice", advice(budgets)},
-          {"msm", json_list(budgets.springs, budget_to_json)},
-          {"fem", json_list(budgets.fem, budget_to_json)}};
+          {"msm", json_list(budgets.springs, error_budget_to_json)},
+          {"fem", json_list(budgets.fem, error_budget_to_json)}};
 }
 
 void write_error_budget_text(std::ostream& out, const ErrorBudgets& budgets) {
@@ -92,7 +91,7 @@ void write_error_budget_text(std::ostream& out, const ErrorBudgets& budgets) {
   std::vector<std::string> reasons;
   for (const auto& [model, all] : {std::pair("springs", &budgets.springs), {"finite elements", &budgets.fem}})
     for (const ErrorBudget& budget : *all) {
-      rows.push_back(budget_to_json(budget));
+      rows.push_back(error_budget_to_json(budget));
       rows.back()["model"] = model;
       for (const NamedPart& named : error_parts) rows.back()[named.name] = part_text(budget.*named.part);
       const auto tell = [&](const std::string& reason) {

@@ -4,6 +4,7 @@
 #include "tests/support/run_program.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -124,4 +125,37 @@ TEST_CASE("a league has a method of ours beside its clients, and says what it ig
   }
   CHECK_THAT(stepped[3].chosen, Catch::StartsWith("best of 5: "));
   CHECK(std::abs(*stepped[3].worst) <= std::abs(*stepped[2].worst));
+}
+
+TEST_CASE("the parts of an error in a league add up to it") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path / "bar.toml")
+      << "schema = 1\nname = \"bar\"\n[body]\nshape = \"box\"\nsize = [20, 10, 10]\ncells = [2, 1, 1]\n"
+         "[material]\nmodel = \"linear_elastic\"\nyoungs_modulus = 0.1\npoissons_ratio = 0.25\n"
+         "density = 1000\n[[fixed]]\nregion = \"x-\"\n[[load]]\nkind = \"gravity\"\nvalue = [0, 0, "
+         "-9.81]\n[msm]\ndesign = \"moduli\"\n[[measure]]\nname = \"tip\"\nkind = \"displacement\"\n"
+         "node = \"x+ y- z-\"\ncomponent = \"z\"\n";
+  const std::string file = (folder.path / "league.toml").string();
+  std::ofstream(file) << "cases = [\"bar.toml\"]\n[[client]]\nname = \"few\"\nmethod = \"xpbd\"\n"
+                         "substeps = [1]\niterations = [4]\n[[client]]\nname = \"many\"\n"
+                         "method = \"implicit_euler\"\n";
+  const compare::League league = compare::read_league(file);
+  const compare::LeagueTable table = compare::play(league, [](const std::string&) {});
+  int n_judged = 0;
+  for (const compare::JudgedRow& row : table.cases.at(0).rows) {
+    CAPTURE(row.model, row.chosen, row.failure);
+    if (!row.worst) continue;
+    ++n_judged;
+    REQUIRE(row.parts);
+    REQUIRE(row.parts->sum());
+    CHECK(std::abs(*row.parts->sum() - *row.worst) <= 0.1 * std::abs(*row.worst));
+    CHECK(row.parts->step.percent == 0.); // of a body at rest
+    if (row.model == "many" || row.model == compare::springs_model)
+      CHECK(std::abs(row.parts->iterations.percent.value()) < 1);
+    if (row.model == "few") CHECK(std::abs(row.parts->iterations.percent.value()) > 10);
+  }
+  CHECK(n_judged >= 4);
+  std::ostringstream page;
+  compare::write_league_markdown(page, table, league);
+  CHECK_THAT(page.str(), Catch::Contains("| law, % | mesh, % | step, % | iterations, % |"));
 }
