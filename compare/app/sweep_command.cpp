@@ -5,8 +5,7 @@
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/ranks.hpp"
-#include "compare/sweep/sweep.hpp"
-#include "compare/sweep/write_sweep.hpp"
+#include "compare/sweep/at_rate.hpp"
 #include "compare/table/table.hpp"
 
 #include <iostream>
@@ -21,6 +20,7 @@ struct SweepOptions {
   std::string file, out;
   std::vector<std::string> settings; ///< keys of the case
   std::optional<double> budget;      ///< seconds
+  std::optional<double> hertz;       ///< frames a second
   bool json = false, quick = false, perf = false;
   Extent extent() const { return quick ? Extent::quick : Extent::full; }
   TimingRules rules() const { return quick ? TimingRules{5, 0.1} : TimingRules{}; }
@@ -37,7 +37,7 @@ void announce(const Sweep& sweep, const std::string& folder) {
 
 /// The names of the files but for their endings.
 std::string file_name(const Sweep& sweep, const std::string& folder) {
-  return folder + (sweep.definition.dynamics ? "/motion_sweep" : "/sweep");
+  return folder + (sweep.rate ? "/rate_sweep" : sweep.definition.dynamics ? "/motion_sweep" : "/sweep");
 }
 
 /// What is finished is on disk before the next variant starts.
@@ -54,6 +54,13 @@ void write_files(const std::string& folder, const Sweep& sweep) {
 
 Sweep time_all(const SweepOptions& options, const cases::Case& definition) {
   const auto write_csv = [&](const Sweep& so_far) { write_csv_of(so_far, options.out); };
+  if (options.hertz) {
+    if (n_mpi_ranks() > 1) throw cases::InputError("sweep --at: runs on one rank; start it without mpirun");
+    Rate rate{*options.hertz};
+    rate.budget_seconds = options.budget.value_or(rate.budget_seconds);
+    claim_folder(options.out);
+    return sweep_at_rate(definition, rate, options.extent(), write_csv);
+  }
   if (definition.dynamics) {
     if (n_mpi_ranks() > 1 || options.budget)
       throw cases::InputError(definition.file +
@@ -106,17 +113,27 @@ int run(const SweepOptions& options) {
 void add_sweep_command(CLI::App& program, Action& chosen) {
   const auto [command, options] = add_command<SweepOptions>(
       program, chosen, "sweep", "speed against error, of both models at many resolutions", run);
-  command->add_option("case", options->file, "case file (TOML): a box under tractions, or in motion");
+  command->add_option("case", options->file,
+                      "case file (TOML): a box under tractions, or in motion; with --at any body");
   add_set_option(*command, options->settings, "override a key: material.poissons_ratio=0.3");
   command->add_option("--out", options->out, "folder for sweep.txt, sweep.csv, sweep.json and the plots");
   add_json_option(*command, options->json);
   command->add_flag("--quick", options->quick, "three resolutions, one tolerance, few repetitions");
   command
-      ->add_option("--budget", options->budget,
-                   "seconds: leave out the variants of the longest estimated times until the others fit")
+      ->add_option(
+          "--budget", options->budget,
+          "seconds: leave out the variants of the longest estimated times until the others fit; with "
+          "--at, of the search (default 60)")
       ->check(number_between(1e-3, 1e9));
-  command->add_flag("--perf", options->perf,
-                    "count the instructions of the springs' kernels with valgrind instead; needs no case");
+  auto* at = command
+                 ->add_option("--at", options->hertz,
+                              "Hz: search for the springs, cells, method, substeps and iterations to use at "
+                              "this rate, by halving")
+                 ->check(number_between(1, 1e4));
+  command
+      ->add_flag("--perf", options->perf,
+                 "count the instructions of the springs' kernels with valgrind instead; needs no case")
+      ->excludes(at);
 }
 
 } // namespace springproof::compare

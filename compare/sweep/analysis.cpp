@@ -160,9 +160,11 @@ std::optional<Point> point_of(const Sweep& sweep, const SweepRow& row, Error err
   Point point{full_name(row.variant), family_of(row.variant), *seconds, *percent, {}, row.variant.step};
   const std::string method = method_name(row.variant);
   const bool moves = sweep.definition.dynamics.has_value();
-  const auto in_the_end =
-      moves ? error_in_the_end(sweep, method) : errors_by_level(sweep, method, error).back();
-  const double told = moves ? uncertainty_percent(*sweep.reference, error) : 0; // the difference's
+  const auto in_the_end = sweep.rate ? row.in_equilibrium_percent
+                          : moves    ? error_in_the_end(sweep, method)
+                                     : errors_by_level(sweep, method, error).back();
+  const double told =
+      moves && !sweep.rate ? uncertainty_percent(*sweep.reference, error) : 0; // the difference's
   if (in_the_end && is_accidental(*percent, *in_the_end) && *in_the_end - *percent > told)
     point.more_cells_percent = in_the_end;
   return point;

@@ -32,8 +32,8 @@ cases::Case with_steps(const cases::Case& definition, const Cells& cells, double
 }
 
 /// Levels that are too large are left out.
-std::vector<Cells> levels_in_time(const cases::Case& definition, Extent extent,
-                                  std::vector<LeftOut>& left_out) {
+std::vector<Cells> small_levels(const cases::Case& definition, Extent extent,
+                                std::vector<LeftOut>& left_out) {
   std::vector<Cells> levels;
   for (const Cells& cells : levels_of(definition, extent)) {
     long n_nodes = 1;
@@ -133,42 +133,6 @@ cases::Trajectory reference_motion(const cases::Case& definition, const Cells& c
   return *found.solution.trajectory;
 }
 
-/// The levels, of a case that can be swept.
-/// @throws InputError
-std::vector<Cells> checked_levels(const cases::Case& definition, Extent extent,
-                                  std::vector<LeftOut>& left_out) {
-  const std::vector<Cells> levels = levels_in_time(definition, extent, left_out);
-  if (levels.size() < 2)
-    throw cases::InputError(
-        definition.file +
-        fmt::format(": body.cells: a sweep in time needs two meshes of at most {} nodes", most_nodes));
-  if (definition.dynamics->n_steps() % 2 != 0)
-    throw cases::InputError(definition.dynamics->where,
-                            "a sweep in time takes twice the step too: end must be an even number of steps");
-  check_watched(definition, levels);
-  return levels;
-}
-
-/// What all motions are held against, and its uncertainty, in words and numbers of the sweep.
-/// @throws InputError when it does not move
-cases::Trajectory add_reference(Sweep& sweep, const std::vector<Cells>& levels) {
-  const cases::Case& definition = sweep.definition;
-  const double step = definition.dynamics->step;
-  const cases::Trajectory truth = reference_motion(definition, levels.back(), step / 4);
-  if (!motion_error_percent(truth, truth))
-    throw cases::InputError(definition.file +
-                            ": measure: their nodes do not move, so that no motion has an error");
-  const auto change = [&](const Cells& cells, double other_step) {
-    return motion_error_percent(truth, reference_motion(definition, cells, other_step))
-        .value_or(std::numeric_limits<double>::infinity());
-  };
-  ReferenceValue& found = sweep.reference.emplace().field;
-  found.note = fmt::format("log_strain q1_bbar, {} cells, generalized_alpha with steps of {:g} ms",
-                           cells_name(levels.back()), 250 * step);
-  found.uncertainty_percent = change(levels[levels.size() - 2], step / 4) + change(levels.back(), step / 2);
-  return truth;
-}
-
 } // namespace
 
 std::optional<double> motion_error_percent(const cases::Trajectory& reference,
@@ -192,12 +156,43 @@ std::optional<double> motion_error_percent(const cases::Trajectory& reference,
   return 100 * std::sqrt(difference_squared / squared);
 }
 
+std::vector<Cells> levels_in_time(const cases::Case& definition, Extent extent,
+                                  std::vector<LeftOut>& left_out) {
+  const std::vector<Cells> levels = small_levels(definition, extent, left_out);
+  if (levels.size() < 2)
+    throw cases::InputError(
+        definition.file +
+        fmt::format(": body.cells: a sweep in time needs two meshes of at most {} nodes", most_nodes));
+  if (definition.dynamics->n_steps() % 2 != 0)
+    throw cases::InputError(definition.dynamics->where,
+                            "a sweep in time takes twice the step too: end must be an even number of steps");
+  check_watched(definition, levels);
+  return levels;
+}
+
+cases::Trajectory add_reference_motion(Sweep& sweep, const std::vector<Cells>& levels, double step) {
+  const cases::Case& definition = sweep.definition;
+  const cases::Trajectory truth = reference_motion(definition, levels.back(), step / 4);
+  if (!motion_error_percent(truth, truth))
+    throw cases::InputError(definition.file +
+                            ": measure: their nodes do not move, so that no motion has an error");
+  const auto change = [&](const Cells& cells, double other_step) {
+    return motion_error_percent(truth, reference_motion(definition, cells, other_step))
+        .value_or(std::numeric_limits<double>::infinity());
+  };
+  ReferenceValue& found = sweep.reference.emplace().field;
+  found.note = fmt::format("log_strain q1_bbar, {} cells, generalized_alpha with steps of {:g} ms",
+                           cells_name(levels.back()), 250 * step);
+  found.uncertainty_percent = change(levels[levels.size() - 2], step / 4) + change(levels.back(), step / 2);
+  return truth;
+}
+
 Sweep sweep_motion(const cases::Case& definition, Extent extent,
                    const std::function<void(const Sweep&)>& on_row) {
   Sweep sweep;
   sweep.definition = definition;
-  const std::vector<Cells> levels = checked_levels(definition, extent, sweep.plan.left_out);
-  const cases::Trajectory truth = add_reference(sweep, levels);
+  const std::vector<Cells> levels = levels_in_time(definition, extent, sweep.plan.left_out);
+  const cases::Trajectory truth = add_reference_motion(sweep, levels, definition.dynamics->step);
   const auto add = [&](Variant variant, Settings settings, const auto& solve) {
     for (const double factor : step_factors) {
       if (settings == Settings::one && factor != 1) continue;

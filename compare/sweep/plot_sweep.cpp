@@ -177,6 +177,30 @@ ErrorPlot plot_of(const Sweep& sweep, Error error, Clock clock) {
   return plot;
 }
 
+/// A series for each method of real time, whose line joins those that no other of its points beats.
+void plot_at_rate(const std::string& folder, const Sweep& sweep) {
+  ErrorPlot plot;
+  plot.uncertainty = uncertainty_percent(*sweep.reference, Error::field);
+  plot.points = points_of(sweep, Error::field, Clock::first_answer);
+  for (const std::string& method : cases::all_names<cases::StepMethod>()) {
+    Series series{method, {2 + static_cast<int>(plot.series.size())}};
+    std::vector<Point> own;
+    for (const SweepRow& row : sweep.rows)
+      if (row.variant.real_time && cases::name_of(row.variant.real_time->method) == method)
+        if (const auto point = point_of(sweep, row, Error::field, Clock::first_answer)) own.push_back(*point);
+    for (const Point& point : pareto_front(own)) series.add(point, true);
+    for (const Point& point : own) series.add(point, false);
+    plot.series.push_back(series);
+  }
+  plot.name = "rate_sweep";
+  plot.data = "rate_sweep_points.csv";
+  plot.headline = fmt::format("{}: a frame on one thread, and its time at {:g} Hz", sweep.definition.name,
+                              sweep.rate->hertz);
+  plot.time = "a frame";
+  plot.real_time = 1e3 / sweep.rate->hertz;
+  plot_errors(folder, plot);
+}
+
 void plot_motions(const std::string& folder, const Sweep& sweep) {
   const double ms = 1e3 * sweep.definition.dynamics->step;
   ErrorPlot plot = plot_of(sweep, Error::field, Clock::first_answer);
@@ -195,6 +219,7 @@ void plot_motions(const std::string& folder, const Sweep& sweep) {
 
 void plot_sweep(const std::string& folder, const Sweep& sweep) {
   if (!sweep.reference) return;
+  if (sweep.rate) return plot_at_rate(folder, sweep);
   if (sweep.definition.dynamics) return plot_motions(folder, sweep);
   for (const Error error : {Error::field, Error::worst_measure})
     for (const Clock clock : {Clock::first_answer, Clock::re_solve}) {

@@ -80,6 +80,12 @@ ReferenceValue judge_field(const cases::Scene& coarsest, const std::array<Field,
   return {"", "mm", 0, factor_with_order * last / (power - 1), ""};
 }
 
+/// @param cells  0: of the reference's own mesh
+Field at_nodes_of(const Reference& reference, const std::array<int, 3>& cells, const Field& displacement) {
+  if (cells == std::array<int, 3>{}) return displacement;
+  return interpolate(displacement, cells, reference.scene.mesh.grid->cells);
+}
+
 } // namespace
 
 cases::Scene scene_on(const cases::Case& definition, const std::array<int, 3>& cells) {
@@ -113,17 +119,40 @@ Reference make_reference(const cases::Case& definition, const std::array<std::ar
   return reference;
 }
 
+Reference reference_of(const Comparison& solved) {
+  const std::string same_mesh = "the finite elements on the same mesh; their limit is not known";
+  const auto percent = [](double part, double whole) { return part == 0 ? 0 : 100 * std::abs(part / whole); };
+  const FieldLimit* limit =
+      solved.mesh_study && solved.mesh_study->field ? &*solved.mesh_study->field : nullptr;
+  Reference reference;
+  reference.scene = solved.scene;
+  reference.solution =
+      as_solution(solved.scene, limit ? limit->value : solved.answers.fem.solution.displacement);
+  const double size = evaluate(field_measure(), solved.scene, reference.solution);
+  reference.field = {field_measure().name, "mm", size, 0, limit ? limit->note : same_mesh};
+  if (limit)
+    reference.field.uncertainty_percent =
+        percent(field_norm(field_measure().kind, solved.scene.mesh, limit->uncertainty), size);
+  for (const MeasuredValue& one : solved.measures)
+    if (one.fem_limit)
+      reference.measures.push_back({one.name, one.unit, one.fem_limit->value,
+                                    percent(one.fem_limit->uncertainty, one.fem_limit->value),
+                                    one.fem_limit->note});
+    else
+      reference.measures.push_back({one.name, one.unit, one.fem.value_or(0), 0, same_mesh});
+  return reference;
+}
+
 std::optional<double> field_error_percent(const Reference& reference, const std::array<int, 3>& cells,
                                           const std::vector<Eigen::Vector3d>& displacement) {
   return difference_percent(reference.scene, reference.solution.displacement,
-                            interpolate(displacement, cells, reference.scene.mesh.grid->cells));
+                            at_nodes_of(reference, cells, displacement));
 }
 
 std::vector<std::optional<double>> measure_errors_percent(const Reference& reference,
                                                           const std::array<int, 3>& cells,
                                                           const std::vector<Eigen::Vector3d>& displacement) {
-  const cases::Solution solution =
-      as_solution(reference.scene, interpolate(displacement, cells, reference.scene.mesh.grid->cells));
+  const cases::Solution solution = as_solution(reference.scene, at_nodes_of(reference, cells, displacement));
   const auto& measures = reference.scene.definition.measures;
   std::vector<std::optional<double>> errors;
   for (std::size_t m = 0; m < measures.size(); ++m) {

@@ -18,7 +18,7 @@
 namespace cereal {
 
 SPRINGPROOF_FIELDS(springproof::compare::Variant, program, design, formulation, element, cells, tolerance,
-                   step)
+                   step, real_time)
 SPRINGPROOF_FIELDS(springproof::compare::TimingRules, repetitions, budget_seconds)
 SPRINGPROOF_FIELDS(springproof::compare::VariantRun, first, again, setup_seconds, first_seconds,
                    again_seconds, is_warm, peak_megabytes, start_megabytes)

@@ -3,6 +3,7 @@
 #include "cases/case/case.hpp"
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
+#include "compare/gates/comparison.hpp"
 #include "compare/solve/estimate.hpp"
 
 #include <array>
@@ -43,8 +44,13 @@ struct Reference {
 Reference make_reference(const cases::Case& definition, const std::array<std::array<int, 3>, 3>& cells,
                          const std::array<std::vector<Eigen::Vector3d>, 3>& displacement);
 
+/// The finite elements' limit on the nodes of a case's own mesh, or where none is known their answer there.
+/// @param solved  the finite elements of a case at rest
+Reference reference_of(const Comparison& solved);
+
 /// Error of a displacement on another grid of the same box, percent of the reference's: L2 norm of the
 /// difference, on the reference's mesh.
+/// @param cells  0: the displacement is of the reference's mesh
 std::optional<double> field_error_percent(const Reference& reference, const std::array<int, 3>& cells,
                                           const std::vector<Eigen::Vector3d>& displacement);
 
@@ -77,8 +83,10 @@ struct Variant {
   cases::Formulation formulation{}; ///< finite elements, CalculiX
   cases::Element element{};         ///< finite elements, CalculiX
   std::array<int, 3> cells{};       ///< those of the box, along x, y, z
-  double tolerance = 1e-9;          ///< on |imbalance| / |applied load|; CalculiX has its own
+  /// On |imbalance| / |applied load|; CalculiX has its own, and a sweep at a rate 0: none.
+  double tolerance = 1e-9;
   double step = 0;                  ///< a motion's, s; 0: at rest
+  std::optional<cases::RealTime> real_time{}; ///< of a sweep at a rate; then cells of 0 are a mesh's own
 };
 
 Family family_of(const Variant& variant);
@@ -94,7 +102,7 @@ std::string cells_name(const std::array<int, 3>& cells);
 std::array<int, 3> field_cells(const Variant& variant);
 
 /// Method, cells and tolerance: "springs hybrid 8x2x2 to 1e-09"; of a motion "springs hybrid, 8x2x2 cells,
-/// steps of 2 ms".
+/// steps of 2 ms"; at a rate "springs hybrid, 8x2x2 cells, xpbd, 1 iteration, 50 substeps".
 std::string full_name(const Variant& variant);
 
 /// The case as a variant has it, without measures: their nodes need not exist on every mesh.
@@ -186,15 +194,23 @@ VariantRun variant_run_from(const std::string& answer, const Variant& variant);
 
 /// One variant, what it took, and how far it is from the truth. Its displacement is no longer kept. A
 /// motion's first_seconds are those of computing for a second of motion, in one run without setting up, and
-/// its field's error is that of its watched nodes over time.
+/// its field's error is that of its watched nodes over time. At a rate first_seconds are those of a frame.
 struct SweepRow {
   Variant variant;
   VariantRun run;
   std::optional<double> field_error_percent{};
   std::vector<std::optional<double>> measure_error_percent{}; ///< one a measure of the case, with its sign
+  std::optional<double>
+      in_equilibrium_percent{}; ///< at a rate: the field's, of the same springs in equilibrium
 };
 
 enum class Processes { one_per_variant, this_one };
+
+/// What a sweep at a rate is asked for.
+struct Rate {
+  double hertz;
+  double budget_seconds = 60; ///< of the search, beside its reference
+};
 
 /// Speed against error of one case: one plain record, which the writers read.
 struct Sweep {
@@ -204,7 +220,9 @@ struct Sweep {
   TimingRules rules;
   Processes processes = Processes::one_per_variant;
   int n_ranks = 1;
-  std::vector<SweepRow> rows; ///< one a variant of the plan, in its order
+  std::optional<Rate> rate{};
+  std::vector<SweepRow>
+      rows; ///< one a variant of the plan, in its order; at a rate, of those followed through
   std::optional<Reference> reference;
   std::string reason_without_reference;
   double seconds = 0; ///< that the sweep took
@@ -258,6 +276,17 @@ constexpr std::array<double, 3> step_factors{2, 1, 0.5};
 /// has not or that do not move; SolveError when the reference fails
 Sweep sweep_motion(const cases::Case& definition, Extent extent,
                    const std::function<void(const Sweep&)>& on_row);
+
+/// Levels of the cells, of a case that can be swept in time.
+/// @throws InputError
+std::vector<std::array<int, 3>> levels_in_time(const cases::Case& definition, Extent extent,
+                                               std::vector<LeftOut>& left_out);
+
+/// What all motions of a sweep are held against. Its uncertainty is added to the sweep.
+/// @param step  s, four of the reference's
+/// @throws InputError when it does not move; SolveError
+cases::Trajectory add_reference_motion(Sweep& sweep, const std::vector<std::array<int, 3>>& levels,
+                                       double step);
 
 /// Difference of two motions of equal nodes at the times of the second that both have, percent of the
 /// first's: root mean squares over times and nodes.

@@ -1,4 +1,4 @@
-#include "compare/sweep/write_sweep.hpp"
+#include "compare/sweep/at_rate.hpp"
 
 #include "compare/provenance/print.hpp"
 
@@ -186,6 +186,11 @@ void tell_left_out(std::ostream& out, const std::vector<LeftOut>& left_out) {
 }
 
 void write_where(std::ostream& out, const Sweep& sweep, const std::string& folder) {
+  if (sweep.rate)
+    return write_paragraph(
+        out,
+        fmt::format("the search took {:.0f} s, its reference included; every row: {}", sweep.seconds,
+                    folder.empty() ? "--out DIR" : "rate_sweep.txt, .csv, .json and a plot in " + folder));
   if (sweep.definition.dynamics)
     return write_paragraph(out, "every motion's row: " +
                                     (folder.empty()
@@ -225,7 +230,9 @@ void write_motions(std::ostream& out, const Sweep& sweep) {
 
 void write_sweep_screen(std::ostream& out, const Sweep& sweep, const std::string& folder) {
   write_title(out, sweep);
-  if (sweep.definition.dynamics) {
+  if (sweep.rate) {
+    write_rate_screen(out, sweep);
+  } else if (sweep.definition.dynamics) {
     write_motions(out, sweep);
   } else {
     write_truth(out, sweep);

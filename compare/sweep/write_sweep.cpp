@@ -1,4 +1,4 @@
-#include "compare/sweep/write_sweep.hpp"
+#include "compare/sweep/at_rate.hpp"
 
 #include "cases/case/names.hpp"
 #include "compare/measure/box_plot.hpp"
@@ -169,13 +169,26 @@ void write_motions_text(std::ostream& out, const Sweep& sweep) {
              });
 }
 
+void write_rows_at_rate(std::ostream& out, const Sweep& sweep) {
+  if (sweep.reference)
+    print(out, "  reference: {}; uncertainty {:.2g} %\n",
+          sweep.reference->field.note.empty() ? "the finite elements' limit" : sweep.reference->field.note,
+          sweep.reference->field.uncertainty_percent);
+  print(out, "  one after the other on one thread; a frame's time is the median of n medians of {} frames\n",
+        n_timed_frames - 1);
+  write_rows(out, sweep, rate_columns_of_text(sweep.definition),
+             [&](const SweepRow& row) { return row_of_text(sweep, row); });
+}
+
 } // namespace
 
 void write_sweep_text(std::ostream& out, const Sweep& sweep) {
   const bool moves = sweep.definition.dynamics.has_value();
   print(out, "{}: {}\n", sweep.definition.name, sweep.definition.description);
   for (const std::string& setting : sweep.settings) print(out, "  with {}\n", setting);
-  if (moves) {
+  if (sweep.rate) {
+    write_rows_at_rate(out, sweep);
+  } else if (moves) {
     write_motions_text(out, sweep);
   } else {
     write_head(out, sweep);
@@ -183,6 +196,11 @@ void write_sweep_text(std::ostream& out, const Sweep& sweep) {
     write_reference(out, sweep);
   }
   for (const LeftOut& left : sweep.plan.left_out) print(out, "left out: {}: {}\n", left.what, left.reason);
+  if (sweep.rate) {
+    print(out, "{}\n", rate_sentence(sweep));
+    print(out, "the sweep took {:.0f} s\n", sweep.seconds);
+    return;
+  }
   if (moves) {
     for (const std::string& sentence : interactive_sentences(sweep)) print(out, "{}\n", sentence);
     return;
@@ -195,6 +213,12 @@ void write_sweep_text(std::ostream& out, const Sweep& sweep) {
 }
 
 void write_sweep_csv(std::ostream& out, const Sweep& sweep) {
+  if (sweep.rate)
+    return write_csv(out, rate_columns(sweep.definition), json_list(sweep.rows, [&](const SweepRow& row) {
+                       Json json = rate_row_to_json(sweep, row);
+                       json["case"] = sweep.definition.name;
+                       return json;
+                     }));
   if (sweep.definition.dynamics) {
     Json rows = json_list(sweep.rows, motion_row_to_json);
     for (Json& row : rows) row["case"] = sweep.definition.name;
@@ -234,7 +258,16 @@ Json sweep_to_json(const Sweep& sweep) {
                    {"description", sweep.definition.description},
                    {"settings", sweep.settings},
                    {"threads", 1}});
-  if (moves) {
+  if (sweep.rate) {
+    document.update({{"at_hertz", sweep.rate->hertz},
+                     {"budget_seconds", sweep.rate->budget_seconds},
+                     {"reference", {{"reason", sweep.reason_without_reference}}}});
+    if (sweep.reference)
+      document["reference"] = {{"field", value_to_json(sweep.reference->field)},
+                               {"measures", json_list(sweep.reference->measures, value_to_json)}};
+    document["rows"] =
+        json_list(sweep.rows, [&](const SweepRow& row) { return rate_row_to_json(sweep, row); });
+  } else if (moves) {
     const ReferenceValue& reference = sweep.reference->field;
     document["reference"] = {{"motion", reference.note},
                              {"uncertainty_percent", reference.uncertainty_percent}};
@@ -251,13 +284,15 @@ Json sweep_to_json(const Sweep& sweep) {
   }
   document["left_out"] = json_list(
       sweep.plan.left_out, [](const LeftOut& left) { return SPRINGPROOF_MEMBERS(left, what, reason); });
-  if (moves) {
+  if (sweep.rate)
+    document["conclusions"] = {rate_sentence(sweep)};
+  else if (moves)
     document["conclusions"] = interactive_sentences(sweep);
-    return document;
-  }
-  document["conclusions"] = json_list(conclusions(sweep), [](const Conclusions& group) {
-    return SPRINGPROOF_MEMBERS(group, heading, sentences);
-  });
+  if (moves && !sweep.rate) return document;
+  if (!sweep.rate)
+    document["conclusions"] = json_list(conclusions(sweep), [](const Conclusions& group) {
+      return SPRINGPROOF_MEMBERS(group, heading, sentences);
+    });
   document["seconds"] = sweep.seconds;
   return document;
 }

@@ -20,7 +20,8 @@ struct Point {
   double seconds;       ///< > 0
   double error_percent; ///< >= 0
   /// The method's error with the most cells (in time: on its finest mesh with the shortest step), where that
-  /// is clearly larger: then errors of mesh and model cancel here, by accident.
+  /// is clearly larger: then errors of mesh and model cancel here, by accident. At a rate it is the error of
+  /// the same springs in equilibrium, which steps leave unsolved.
   std::optional<double> more_cells_percent{};
   double step = 0; ///< a motion's, s
 };

@@ -51,19 +51,6 @@ int stable_substeps(const cases::Scene& scene, const SpringBody& springs, double
   return std::max(1, static_cast<int>(n));
 }
 
-/// The scene as a motion that begins with whole loads.
-cases::Scene in_motion(cases::Scene scene) {
-  const cases::RealTime& real_time = *scene.definition.msm.real_time;
-  cases::Dynamics& dynamics = scene.definition.dynamics.emplace();
-  dynamics.scheme.scheme = cases::Scheme::implicit_euler;
-  dynamics.step = real_time.step;
-  dynamics.end = real_time.end;
-  scene.definition.material_dynamics.mass_damping = real_time.damping;
-  for (cases::RegionMaterial& region : scene.definition.region_materials)
-    region.dynamics.mass_damping = real_time.damping;
-  return scene;
-}
-
 /// All components of points, point after point.
 Eigen::Map<Vector> flat(Points& points) {
   return {points.front().data(), static_cast<Eigen::Index>(3 * points.size())};
@@ -107,6 +94,18 @@ mechanics::IntegrationSettings in_substeps(const cases::Scene& scene, const Spri
                           ? stable_substeps(scene, springs, step)
                           : 1;
   return settings;
+}
+
+cases::Scene in_motion(cases::Scene scene) {
+  const cases::RealTime& real_time = *scene.definition.msm.real_time;
+  cases::Dynamics& dynamics = scene.definition.dynamics.emplace();
+  dynamics.scheme.scheme = cases::Scheme::implicit_euler;
+  dynamics.step = real_time.step;
+  dynamics.end = real_time.end;
+  scene.definition.material_dynamics.mass_damping = real_time.damping;
+  for (cases::RegionMaterial& region : scene.definition.region_materials)
+    region.dynamics.mass_damping = real_time.damping;
+  return scene;
 }
 
 cases::Solution come_to_rest(const cases::Scene& scene, const SpringBody& springs, int n_threads,

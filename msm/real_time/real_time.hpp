@@ -25,6 +25,9 @@ struct StepLimits {
   std::function<void(const mechanics::CameToRest&)> tell_moving{};
 };
 
+/// The scene of a body without [dynamics] as the motion in which it comes to rest.
+cases::Scene in_motion(cases::Scene scene);
+
 /// Where a body without [dynamics] comes to rest: its whole loads act from time 0 on, and its supports are at
 /// once where they go.
 /// @return with Solution::from_equilibrium but for the distances

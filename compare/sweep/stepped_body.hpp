@@ -1,0 +1,55 @@
+#pragma once
+
+#include "compare/solve/springs.hpp"
+#include "compare/sweep/sweep.hpp"
+
+/// Springs that a method of [msm] real_time steps, for a sweep at a rate.
+namespace springproof::compare {
+
+/// The springs of a design on a mesh.
+struct DesignedBody {
+  Variant variant;
+  cases::Scene scene;
+  msm::SpringBody springs;
+  std::optional<double> in_equilibrium_percent{}; ///< error of the field; of a body at rest
+};
+
+/// What each method is tried with; symplectic Euler has as many substeps as are stable.
+/// @param given  the steps of a body that is to come to rest
+std::vector<cases::RealTime> steps_to_try(const cases::RealTime& given);
+
+/// Searches by halving. Bodies come to rest, those with [dynamics] move in steps of a frame. Designs whose
+/// springs are among the worst three quarters in equilibrium on a level are left out at rest; what does not
+/// come to rest, or is given up, is a row with its reason. One after the other in this process, on one
+/// thread.
+/// @param on_row  called with the sweep as it is after every row
+/// @throws InputError where the case has no density, or no springs that can be stepped; SolveError when the
+/// reference of a motion fails
+Sweep sweep_at_rate(cases::Case definition, const Rate& rate, Extent extent,
+                    const std::function<void(const Sweep&)>& on_row);
+
+/// Frames that a method is tried by, at least two.
+constexpr int n_first_frames = 3;
+
+/// Times the frames after the first, which makes what the others keep, from the start of the body's motion.
+/// @param n_frames  fewer are made where they would take more than two seconds
+/// @return seconds of each
+/// @throws InputError where the method cannot take the springs; SolveError
+std::vector<double> time_frames(const DesignedBody& body, const cases::RealTime& steps, int n_frames);
+
+/// Where a body is after a time.
+struct Rest {
+  /// Failed where a step is not solved or the body flies off; converged at rest; skipped, with the mean over
+  /// the second half of the time, where it still moves.
+  cases::Solution solution;
+  double moves_percent =
+      0; ///< by which a node has moved in the last half second, of the largest displacement
+};
+
+/// @param within  s; a whole number of half seconds
+Rest rest_within(const DesignedBody& body, const cases::RealTime& steps, double within);
+
+/// The motion of a body until a time.
+cases::Solution moved_until(const DesignedBody& body, const cases::RealTime& steps, double end);
+
+} // namespace springproof::compare
