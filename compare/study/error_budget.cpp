@@ -34,13 +34,6 @@ bool has_iteration_limit(const cases::Msm& msm) {
   return msm.iterations_per_step || msm.real_time || msm.relaxation;
 }
 
-/// One model on one lattice, with the case's step and with half of it.
-struct Lattice {
-  cases::Scene scene;
-  cases::Solution solution;
-  std::optional<cases::Solution> half_step{};
-};
-
 /// What a lattice is left unsolved for.
 constexpr double most_seconds = 60;
 
@@ -88,7 +81,7 @@ class Lattices {
     }
   }
 
-  std::vector<Lattice> all;
+  std::vector<SolvedLattice> all;
 
  private:
   const Request& request_;
@@ -96,7 +89,7 @@ class Lattices {
 
   /// Solves one more lattice; of a motion the first two with half the step too.
   bool add(cases::Scene scene, const cases::Solution* known) {
-    Lattice lattice{std::move(scene), {}};
+    SolvedLattice lattice{std::move(scene), {}};
     if (!is_solved(known ? Answer{*known} : solved(lattice.scene, request_), lattice.solution)) return false;
     if (lattice.scene.definition.dynamics && all.size() < 2 &&
         !is_solved(solved(with_half_the_step(lattice.scene), request_), lattice.half_step.emplace()))
@@ -160,13 +153,14 @@ class Budget {
   }
 
   /// @param is_solved  nothing is left by iterations
-  ErrorBudget of_springs(const std::vector<Lattice>& lattices, const std::string& note, bool is_solved) {
+  ErrorBudget of_springs(const std::vector<SolvedLattice>& lattices, const std::string& note,
+                         bool is_solved) {
     const auto own = parts_.value(scene_, answers_.msm.solution);
     if (!own) return {measure_.name, {}, {}, {}, {}, {}, "the springs have no such value"};
     whole_ = difference(*own, truth_);
     ErrorBudget budget = begin();
     std::vector<Field> values, steps;
-    for (const Lattice& lattice : lattices) {
+    for (const SolvedLattice& lattice : lattices) {
       const auto value = parts_.value(lattice.scene, lattice.solution);
       if (!value) break;
       values.push_back(*value);
@@ -302,7 +296,7 @@ ErrorBudgets study_errors(const Comparison& comparison, const Request& request) 
     }
     half_step = std::move(half.solution);
   }
-  const std::vector<Lattice> lattices = Lattices(comparison, request, budgets).all;
+  const std::vector<SolvedLattice> lattices = Lattices(comparison, request, budgets).all;
   const bool is_solved = !has_iteration_limit(comparison.scene.definition.msm);
   for (const cases::Measure& measure : comparison.scene.definition.measures) {
     Budget budget(measure, comparison);
@@ -315,7 +309,7 @@ ErrorBudgets study_errors(const Comparison& comparison, const Request& request) 
 }
 
 struct SpringLattices::All {
-  std::vector<Lattice> lattices;
+  std::vector<SolvedLattice> lattices;
   std::string note;
 };
 

@@ -90,4 +90,11 @@ inline Field step_part(const Field& value, const Field& half_step, int order) {
   return moved(Field(value.size(), Eigen::Vector3d::Zero()), factor, value, half_step);
 }
 
+/// One model on one lattice, with the case's step and with half of it.
+struct SolvedLattice {
+  cases::Scene scene;
+  cases::Solution solution;
+  std::optional<cases::Solution> half_step{};
+};
+
 } // namespace springproof::compare

@@ -10,6 +10,16 @@ namespace springproof::compare {
 /// Frames' time that a frame may take of what is followed: what is next best may miss the rate.
 constexpr double most_frames = 2;
 
+/// Searches by halving. Bodies come to rest, those with [dynamics] move in steps of a frame. Designs whose
+/// springs are among the worst three quarters in equilibrium on a level are left out at rest; what does not
+/// come to rest, or is given up, is a row with its reason. One after the other in this process, on one
+/// thread.
+/// @param on_row  called with the sweep as it is after every row
+/// @throws InputError where the case has no density, or no springs that can be stepped; SolveError when the
+/// reference of a motion fails
+Sweep sweep_at_rate(cases::Case definition, const Rate& rate, Extent extent,
+                    const std::function<void(const Sweep&)>& on_row);
+
 /// Times of a row of the front, each the median of up to n_timed_frames.
 constexpr int n_timings = 3, n_timed_frames = 60;
 

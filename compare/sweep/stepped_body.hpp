@@ -18,16 +18,6 @@ struct DesignedBody {
 /// @param given  the steps of a body that is to come to rest
 std::vector<cases::RealTime> steps_to_try(const cases::RealTime& given);
 
-/// Searches by halving. Bodies come to rest, those with [dynamics] move in steps of a frame. Designs whose
-/// springs are among the worst three quarters in equilibrium on a level are left out at rest; what does not
-/// come to rest, or is given up, is a row with its reason. One after the other in this process, on one
-/// thread.
-/// @param on_row  called with the sweep as it is after every row
-/// @throws InputError where the case has no density, or no springs that can be stepped; SolveError when the
-/// reference of a motion fails
-Sweep sweep_at_rate(cases::Case definition, const Rate& rate, Extent extent,
-                    const std::function<void(const Sweep&)>& on_row);
-
 /// Frames that a method is tried by, at least two.
 constexpr int n_first_frames = 3;
 
@@ -42,8 +32,8 @@ struct Rest {
   /// Failed where a step is not solved or the body flies off; converged at rest; skipped, with the mean over
   /// the second half of the time, where it still moves.
   cases::Solution solution;
-  double moves_percent =
-      0; ///< by which a node has moved in the last half second, of the largest displacement
+  /// By which a node has moved in the last half second, of the largest displacement.
+  double moves_percent = 0;
 };
 
 /// @param within  s; a whole number of half seconds
