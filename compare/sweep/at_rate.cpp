@@ -255,7 +255,7 @@ class Search {
   }
 
   /// The error of a candidate after a time. What still moves is no nearer to its rest than it moves.
-  void find_error(Candidate& one, double time) const {
+  void find_error(Candidate& one, double time, mechanics::StillMoving still_moving) const {
     const DesignedBody& body = bodies_[one.body];
     cases::Solution& solution = one.run.first;
     one.error.reset();
@@ -264,7 +264,7 @@ class Search {
       solution = moved_until(body, one.steps, time);
       if (solution.trajectory) one.error = motion_error_percent(truth_, *solution.trajectory);
     } else {
-      Rest rest = rest_within(body, one.steps, time);
+      Rest rest = rest_within(body, one.steps, time, still_moving);
       solution = std::move(rest.solution);
       moves_percent = rest.moves_percent;
       if (!solution.displacement.empty())
@@ -281,10 +281,9 @@ class Search {
   std::optional<Point> follow_for(Candidate& one, int round) {
     const bool is_last = round + 1 == n_rounds();
     cases::Solution& solution = one.run.first;
-    if (definition_.dynamics || solution.status != cases::Status::converged) {
-      find_error(one, is_last && !definition_.dynamics ? given_.end : time_of(round));
-      if (is_last && solution.status == cases::Status::skipped) solution.status = cases::Status::failed;
-    }
+    if (definition_.dynamics || solution.status != cases::Status::converged)
+      find_error(one, is_last && !definition_.dynamics ? given_.end : time_of(round),
+                 is_last ? mechanics::StillMoving::fails : mechanics::StillMoving::has_mean);
     if (solution.status != cases::Status::failed)
       return Point{full_name(variant_of(one)), Family::springs, one.seconds_a_frame, *one.error};
     solution.displacement.clear();

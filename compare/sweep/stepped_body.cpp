@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace springproof::compare {
 
@@ -65,46 +66,40 @@ std::vector<double> time_frames(const DesignedBody& body, const cases::RealTime&
   std::vector<double> seconds;
   const Stopwatch whole;
   Stopwatch frame;
-  for (int n = 0; n < n_frames && (n < n_first_frames || whole.seconds() < most_timed_seconds); ++n) {
-    const int n_parts = stepped.settings.substeps;
-    for (int part = 1; part <= n_parts; ++part) motion.advance((n + part / double(n_parts)) * dynamics.step);
+  for (int n = 1; n <= n_frames && (n <= n_first_frames || whole.seconds() < most_timed_seconds); ++n) {
+    motion.advance(n * dynamics.step);
     seconds.push_back(frame.lap());
   }
   seconds.erase(seconds.begin());
   return seconds;
 }
 
-Rest rest_within(const DesignedBody& body, const cases::RealTime& steps, double within) {
+Rest rest_within(const DesignedBody& body, const cases::RealTime& steps, double within,
+                 mechanics::StillMoving still_moving) {
   Rest rest;
-  cases::Solution& found = rest.solution;
-  std::vector<Points> seen;
+  Points before, last; // half a second of motion between them
   try {
     Stepped stepped(body, steps);
     const auto points = [&](const mechanics::Vector& state) {
-      seen.push_back(stepped.body.to_points(state));
-      for (const Eigen::Vector3d& u : seen.back())
+      before = std::exchange(last, stepped.body.to_points(state));
+      for (const Eigen::Vector3d& u : last)
         if (!u.allFinite()) throw cases::SolveError("the body has flown off: a node is at no finite place");
-      return seen.back();
+      return last;
     };
-    const auto at_rest = mechanics::come_to_rest({stepped.body.motion(), points, {}}, stepped.start(),
-                                                 steps.step, within, stepped.settings);
-    found = msm::solution_of(stepped.body.problem(), at_rest.work, seen.back());
-    return rest;
+    const mechanics::CameToRest found =
+        mechanics::come_to_rest({stepped.body.motion(), points, {}}, stepped.start(), steps.step, within,
+                                stepped.settings, still_moving);
+    rest.solution = msm::solution_of(stepped.body.problem(), found.work, stepped.body.to_points(found.state));
+    if (!found.mean_from) return rest;
   } catch (const cases::SolveError& error) {
-    found = error.so_far();
+    rest.solution = error.so_far();
+    return rest;
   }
-  const auto every = std::max(1L, std::lround(0.5 / steps.step)), last = std::lround(within / steps.step);
-  if (static_cast<long>(seen.size()) <= last / every) return rest; // it was given up on the way
-  found.status = cases::Status::skipped;
-  found.displacement.assign(seen.back().size(), {0, 0, 0});
-  const std::size_t first = seen.size() / 2;
-  for (std::size_t n = first; n < seen.size(); ++n)
-    for (std::size_t p = 0; p < found.displacement.size(); ++p)
-      found.displacement[p] += seen[n][p] / double(seen.size() - first);
+  rest.solution.status = cases::Status::skipped;
   double moved = 0, largest = 0;
-  for (std::size_t p = 0; p < seen.back().size(); ++p) {
-    moved = mechanics::larger(moved, (seen.back()[p] - seen[seen.size() - 2][p]).norm());
-    largest = mechanics::larger(largest, seen.back()[p].norm());
+  for (std::size_t p = 0; p < last.size(); ++p) {
+    moved = mechanics::larger(moved, (last[p] - before[p]).norm());
+    largest = mechanics::larger(largest, last[p].norm());
   }
   rest.moves_percent = largest > 0 ? 100 * moved / largest : 0;
   return rest;

@@ -29,15 +29,16 @@ std::vector<double> time_frames(const DesignedBody& body, const cases::RealTime&
 
 /// Where a body is after a time.
 struct Rest {
-  /// Failed where a step is not solved or the body flies off; converged at rest; skipped, with the mean over
-  /// the second half of the time, where it still moves.
+  /// Failed where a step is not solved or the body flies off; converged at rest; skipped where it still moves
+  /// and its mean is wanted.
   cases::Solution solution;
   /// By which a node has moved in the last half second, of the largest displacement.
   double moves_percent = 0;
 };
 
-/// @param within  s; a whole number of half seconds
-Rest rest_within(const DesignedBody& body, const cases::RealTime& steps, double within);
+/// @param within  s, at least half a second
+Rest rest_within(const DesignedBody& body, const cases::RealTime& steps, double within,
+                 mechanics::StillMoving still_moving);
 
 /// The motion of a body until a time.
 cases::Solution moved_until(const DesignedBody& body, const cases::RealTime& steps, double end);
