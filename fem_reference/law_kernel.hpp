@@ -6,6 +6,10 @@
 
 namespace springproof::fem_reference {
 
+/// Whether a law has finite forces where a point is turned inside out, J <= 0.
+template<class Law>
+constexpr bool is_finite_inside_out = Law::traits.kinematics == Kinematics::linear;
+
 /// The element loop's part that depends on the law, which is inlined at every point.
 template<class Law>
 class LawKernel final : public CellKernel {
@@ -35,8 +39,8 @@ class LawKernel final : public CellKernel {
       const auto point = static_cast<std::size_t>(q);
       const Matrix3 h = displacement_gradient(g, q, displacement, g.n_functions);
       const double change = dilatation(kinematics, h);
-      // linear kinematics have no inverted state; written so that NaN is refused
-      const bool is_admissible = kinematics == Kinematics::linear ? std::isfinite(change) : change > -1;
+      // written so that NaN is refused
+      const bool is_admissible = is_finite_inside_out<Law> ? std::isfinite(change) : change > -1;
       if (!is_admissible) return false;
       dilatation_[point] = change;
       law_.stress(h, wanted, stress_);

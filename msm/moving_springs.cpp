@@ -3,6 +3,8 @@
 #include "cases/case/error.hpp"
 #include "cases/mesh/mesh.hpp"
 #include "cases/scene/loads.hpp"
+#include "mechanics/dynamics/loads_in_time.hpp"
+#include "mechanics/real_time/step_equation.hpp"
 #include "mechanics/shape_products.hpp"
 #include "msm/tangent.hpp"
 
@@ -55,13 +57,8 @@ Inertia make_inertia(const cases::Scene& scene, Lattice damping) {
     for (std::size_t c = 0; c < inertia.cell_mass.size(); ++c)
       inertia.cell_mass_damping.push_back(cases::dynamics_of(scene, c).mass_damping * inertia.cell_mass[c]);
   }
-  for (const auto& applied : scene.loads) {
-    std::vector<cases::NodeVector> force =
-        applied.load.on() == cases::loads::On::masses
-            ? cases::weights(inertia.mass, cases::acceleration_of(applied.load))
-            : cases::loaded_nodes(scene, {applied});
-    inertia.loads.push_back({applied.load.history, std::move(force)});
-  }
+  for (mechanics::LoadOnNodes& load : mechanics::loads_in_time(scene, inertia.mass))
+    inertia.loads.push_back({std::move(load.history), std::move(load.force)});
   return inertia;
 }
 
@@ -125,9 +122,7 @@ std::optional<mechanics::NonlinearProblem::Solved> MovingSprings::solve_at(Vecto
   work_.linear_iterations += method_(*terms_, diagonal_, at);
   const double left = terms_->is_substep ? 0 : size(NonlinearProblem::residual(at, load_factor), at).relative;
   if (!std::isfinite(left) || !at.allFinite())
-    throw cases::SolveError(
-        "steps in real time: a node is at no finite place, or a cell is turned inside out "
-        "that has no forces then");
+    throw cases::SolveError(mechanics::no_finite_place);
   return Solved{true, 0, left};
 }
 

@@ -1,8 +1,7 @@
 #pragma once
 
+#include "mechanics/block_matrix.hpp"
 #include "msm/lattice.hpp"
-
-#include <Eigen/SparseCore>
 
 namespace springproof::msm {
 
@@ -22,11 +21,10 @@ void visit_tangent_blocks(const Lattice& lattice, const Points& positions, Clamp
   });
 }
 
-/// The sparse tangent stiffness of a lattice on its free degrees of freedom. The pattern, and every
-/// contribution's place in it, are found once.
+/// The sparse tangent stiffness of a lattice on its free degrees of freedom.
 class Tangent {
  public:
-  using Matrix = Eigen::SparseMatrix<double>;
+  using Matrix = mechanics::BlockMatrix::Matrix;
 
   /// @param lattice   must outlive the tangent
   /// @param is_constrained  degree of freedom 3*point + component, three entries per point
@@ -35,16 +33,13 @@ class Tangent {
   /// Lower triangle, N/mm, at these positions (mm).
   const Matrix& assemble(const Points& positions, Clamp clamp);
 
-  int n_free() const { return n_free_; }
+  int n_free() const { return matrix_.n_free(); }
   /// Number among the free ones of degree of freedom 3*point + component, or -1.
-  const std::vector<int>& free_number() const { return free_number_; }
+  const std::vector<int>& free_number() const { return matrix_.free_number(); }
 
  private:
   const Lattice& lattice_;
-  std::vector<int> free_number_;
-  int n_free_ = 0;
-  Matrix matrix_;
-  std::vector<int> slots_; ///< places among the matrix's values, 9 per block as visited; -1: none
+  mechanics::BlockMatrix matrix_;
 };
 
 } // namespace springproof::msm

@@ -288,6 +288,13 @@ void check_real_time(Table& table, const Msm& msm, const Case& definition) {
     entry.refuse("left out beside mass = \"consistent\": its masses are lumped");
   if (has_stiffness_damping(definition))
     entry.refuse("left out beside stiffness_damping: it damps masses alone");
+  const StepMethod method = msm.real_time->method;
+  if (msm.design == Design::biquadratic &&
+      (method == StepMethod::xpbd || method == StepMethod::projective_dynamics))
+    entry.refuse(fmt::format("of method = \"{}\" | \"{}\" | \"{}\" with design = \"biquadratic\", whose "
+                             "tetrahedra are no constraints of one number",
+                             name_of(StepMethod::vertex_block_descent), name_of(StepMethod::implicit_euler),
+                             name_of(StepMethod::symplectic_euler)));
 }
 
 Msm read_msm(Table& table, const Case& definition) {

@@ -1,16 +1,30 @@
 #include "msm/real_time/real_time.hpp"
 
-#include "cases/case/error.hpp"
+#include "mechanics/real_time/coming_to_rest.hpp"
 #include "msm/direct/direct_system.hpp"
 #include "msm/real_time/step_method.hpp"
 #include "msm/tangent.hpp"
 
-#include <cmath>
-#include <fmt/format.h>
+#include <memory>
 
 namespace springproof::msm {
 
 namespace {
+
+mechanics::ForcesAt forces_of(const Lattice& lattice) {
+  return [&lattice](const Points& displacement) { return internal_force_at(lattice, displacement); };
+}
+
+mechanics::FreeTangent tangent_of(const Lattice& lattice, const std::vector<bool>& is_constrained,
+                                  Clamp clamp) {
+  const auto tangent = std::make_shared<Tangent>(lattice, is_constrained);
+  return {tangent->free_number(), tangent->n_free(),
+          [&lattice, tangent, clamp](const Points& displacement) -> const Tangent::Matrix& {
+            Points x = lattice.rest;
+            for (std::size_t p = 0; p < x.size(); ++p) x[p] += displacement[p];
+            return tangent->assemble(x, clamp);
+          }};
+}
 
 MakeStep make_step(const cases::RealTime& real_time, const Problem& problem, int n_threads) {
 #pragma GCC diagnostic error "-Wswitch" // a method that is forgotten here must not compile
@@ -22,33 +36,20 @@ MakeStep make_step(const cases::RealTime& real_time, const Problem& problem, int
   case cases::StepMethod::vertex_block_descent:
     return make_vertex_block_descent(problem.lattice, real_time.iterations, n_threads);
   case cases::StepMethod::implicit_euler:
-    return make_implicit_euler(problem, real_time.iterations);
+    return mechanics::make_implicit_euler(forces_of(problem.lattice),
+                                          tangent_of(problem.lattice, problem.is_constrained, Clamp::yes),
+                                          real_time.iterations);
   case cases::StepMethod::symplectic_euler:
     break;
   }
-  return make_symplectic_euler(problem.lattice);
+  return mechanics::make_symplectic_euler(forces_of(problem.lattice));
 }
 
-/// Steps that keep explicit ones stable: 80 % of 2/omega, where Gershgorin's circles bound omega² by the
-/// largest sum of a row of M^-1 |K| at rest.
 int stable_substeps(const cases::Scene& scene, const SpringBody& springs, double step) {
   const Lattice lattice = make_lattice(scene.mesh, springs);
-  Tangent tangent(lattice, cases::constrained_dofs(scene));
-  const std::vector<double> masses = cases::point_masses(scene);
-  const Tangent::Matrix whole = tangent.assemble(lattice.rest, Clamp::no).selfadjointView<Eigen::Lower>();
-  double squared = 0; // omega², 1/s²
-  for (std::size_t dof = 0; dof < tangent.free_number().size(); ++dof)
-    if (const int column = tangent.free_number()[dof]; column >= 0)
-      squared = std::max(squared, whole.col(column).cwiseAbs().sum() / masses[dof / 3]);
-  constexpr double most = 1e6;
-  const double n = std::ceil(step * std::sqrt(squared) / (0.8 * 2));
-  if (!(n <= most))
-    throw cases::InputError(
-        scene.definition.msm.where,
-        fmt::format("real_time: symplectic_euler needs {:.3g} substeps of a step of {:g} s "
-                    "to be stable, above {:g}; take an implicit method or a shorter step",
-                    n, step, most));
-  return std::max(1, static_cast<int>(n));
+  return mechanics::stable_substeps(
+      tangent_of(lattice, cases::constrained_dofs(scene), Clamp::no), cases::point_masses(scene), step,
+      cases::name_of(cases::StepMethod::symplectic_euler), scene.definition.msm.where);
 }
 
 /// All components of points, point after point.
@@ -87,25 +88,15 @@ MovingSprings::StepMethod step_method(const cases::RealTime& real_time, const Pr
 mechanics::IntegrationSettings in_substeps(const cases::Scene& scene, const SpringBody& springs,
                                            double step) {
   const cases::RealTime& real_time = *scene.definition.msm.real_time;
-  mechanics::IntegrationSettings settings;
-  settings.max_halvings = 0;
-  settings.substeps = real_time.substeps ? *real_time.substeps
-                      : real_time.method == cases::StepMethod::symplectic_euler
-                          ? stable_substeps(scene, springs, step)
-                          : 1;
-  return settings;
+  return mechanics::in_substeps(real_time, [&] {
+    return real_time.method == cases::StepMethod::symplectic_euler ? stable_substeps(scene, springs, step)
+                                                                   : 1;
+  });
 }
 
 cases::Scene in_motion(cases::Scene scene) {
-  const cases::RealTime& real_time = *scene.definition.msm.real_time;
-  cases::Dynamics& dynamics = scene.definition.dynamics.emplace();
-  dynamics.scheme.scheme = cases::Scheme::implicit_euler;
-  dynamics.step = real_time.step;
-  dynamics.end = real_time.end;
-  scene.definition.material_dynamics.mass_damping = real_time.damping;
-  for (cases::RegionMaterial& region : scene.definition.region_materials)
-    region.dynamics.mass_damping = real_time.damping;
-  return scene;
+  const cases::RealTime real_time = *scene.definition.msm.real_time;
+  return mechanics::in_motion(std::move(scene), real_time);
 }
 
 cases::Solution come_to_rest(const cases::Scene& scene, const SpringBody& springs, int n_threads,
@@ -126,11 +117,7 @@ cases::Solution come_to_rest(const cases::Scene& scene, const SpringBody& spring
   const Points displacement = points(rest.state);
   const Vector at = to_vector(problem, displacement);
   cases::Solution solution = solution_of(problem, rest.work, displacement);
-  solution.residual = statics->size(statics->residual(at, 1), at).relative;
-  solution.relaxation_iterations = solution.linear_iterations;
-  cases::FromEquilibrium& from = solution.from_equilibrium.emplace(
-      cases::FromEquilibrium{mechanics::EquilibriumSettings{}.tolerance, {}, {}, {}, {}, {}});
-  if (!rest.mean_from) from.rest = {rest.time, rest.steps};
+  mechanics::add_rest(solution, rest, statics->size(statics->residual(at, 1), at).relative);
   return solution;
 }
 

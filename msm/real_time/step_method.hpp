@@ -1,49 +1,23 @@
 #pragma once
 
-#include "cases/case/models.hpp"
+#include "mechanics/real_time/euler.hpp"
 #include "msm/problem.hpp"
 
-#include <functional>
-
-/// How simulators make a step in time.
+/// How simulators make a step in time of springs.
 namespace springproof::msm {
 
-/// The equation of a step,  D (u - origin) = force + f_int(u),  by points.
-struct StepEquation {
-  Points inertia; ///< D, N/mm: M/h² + C/h, lumped; 0 on constrained components
-  Points origin;  ///< mm: displacement when the step begins
-  Points force;   ///< N: loads, and the inertia of the velocity
-
-  /// D^-1 of a point's vector, 0 on constrained components.
-  Eigen::Vector3d moved_by(std::size_t point, const Eigen::Vector3d& by) const {
-    const Eigen::Vector3d& d = inertia[point];
-    return (d.array() > 0).select(by.cwiseQuotient(d), 0);
-  }
-  /// Where the points go without internal forces: supports of `at` stay.
-  void go_freely(Points& at) const {
-    for (std::size_t p = 0; p < at.size(); ++p)
-      at[p] = (inertia[p].array() > 0).select(origin[p] + moved_by(p, force[p]), at[p]);
-  }
-  /// What is left of the equation, N, without internal forces.
-  Eigen::Vector3d rest_of(std::size_t point, const Eigen::Vector3d& displacement) const {
-    return (inertia[point].array() > 0)
-        .select(force[point] - inertia[point].cwiseProduct(displacement - origin[point]), 0);
-  }
-};
-
-/// Goes from where the step begins to the method's answer: `at`, mm, whose constrained components are where
-/// the step has them. Called for one step of a motion after the other, all of one length.
-/// @return iterations
-using MakeStep = std::function<int(const StepEquation& step, Points& at)>;
+using mechanics::MakeStep;
+using mechanics::StepEquation;
 
 /// Residual of the equation on free components, N.
-Points residual_of(const StepEquation& step, const Lattice& lattice, const Points& at);
+inline Points residual_of(const StepEquation& step, const Lattice& lattice, const Points& at) {
+  return mechanics::residual_of(
+      step, [&](const Points& displacement) { return internal_force_at(lattice, displacement); }, at);
+}
 
 // The methods. The lattice must outlive them.
 MakeStep make_xpbd(const Lattice& lattice, int iterations, int n_threads);
 MakeStep make_projective_dynamics(const Lattice& lattice, int iterations);
 MakeStep make_vertex_block_descent(const Lattice& lattice, int iterations, int n_threads);
-MakeStep make_implicit_euler(const Problem& problem, int iterations);
-MakeStep make_symplectic_euler(const Lattice& lattice);
 
 } // namespace springproof::msm

@@ -27,13 +27,13 @@ class VertexBlockDescent {
     const auto nodes = nodes_of_terms(lattice);
     for (std::size_t term = 0; term < nodes.size(); ++term)
       for (const int node : nodes[term]) terms_[cases::index(node)].push_back(static_cast<int>(term));
-    colours_ = colour(terms_, nodes.size());
+    colours_ = mechanics::colour(terms_, nodes.size());
   }
 
   int operator()(const StepEquation& step, Points& at) {
     begin(step, at);
     for (int n = 0; n < iterations_; ++n)
-      for_each_item(colours_, n_threads_, [&](std::size_t node) {
+      mechanics::for_each_item(colours_, n_threads_, [&](std::size_t node) {
         if ((step.inertia[node].array() > 0).any()) at[node] += newton_step(step, node, at);
       });
     return iterations_;
@@ -43,7 +43,7 @@ class VertexBlockDescent {
   const Lattice& lattice_;
   int iterations_, n_threads_;
   std::vector<std::vector<int>> terms_; ///< those at each node
-  Colours colours_;
+  mechanics::Colours colours_;
   Points last_, last_moved_; ///< mm: where the step before began, and by how much it moved; empty: none yet
 
   /// Starts with the velocity, and with as much of the outer forces as have accelerated the body before:

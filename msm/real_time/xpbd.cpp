@@ -1,4 +1,5 @@
 #include "cases/case/error.hpp"
+#include "mechanics/real_time/constraint.hpp"
 #include "msm/real_time/colours.hpp"
 #include "msm/real_time/step_method.hpp"
 
@@ -52,11 +53,7 @@ struct HookeSpring {
   double stiffness, rest_length, multiplier;
 };
 
-/// Projections with multipliers lambda = -U'(C), which Newton's method for one constraint after the other
-/// finds:
-///   d lambda = -(U' + lambda)/(1 + U'' w),  w = grad C . D^-1 grad C,  dx = D^-1 grad C d lambda.
-/// For U = k C²/2 that is the update of Macklin et al. (2016), eq. 18, of compliance 1/k, times D in place of
-/// M/h². Constraints whose energy curves down take the first part of 1 alone. Hooke's springs come first,
+/// Projections of one term after the other (mechanics/real_time/constraint.hpp). Hooke's springs come first,
 /// in an array in the order of their colours: nearly all bodies have no other terms, or few.
 class Xpbd {
  public:
@@ -77,7 +74,7 @@ class Xpbd {
         of_others.push_back(nodes[n]);
         others_.push_back(n);
       }
-    for (const std::vector<int>& of_colour : colour(of_springs, lattice.rest.size())) {
+    for (const std::vector<int>& of_colour : mechanics::colour(of_springs, lattice.rest.size())) {
       for (const int number : of_colour) {
         const auto& ends = of_springs[cases::index(number)];
         const Spring& spring = *springs[cases::index(number)];
@@ -85,7 +82,7 @@ class Xpbd {
       }
       ends_of_colours_.push_back(static_cast<std::ptrdiff_t>(springs_.size()));
     }
-    colours_ = colour(of_others, lattice.rest.size());
+    colours_ = mechanics::colour(of_others, lattice.rest.size());
     multipliers_.resize(others_.size());
   }
 
@@ -99,7 +96,7 @@ class Xpbd {
             64);
         begin = end;
       }
-      for_each_item(colours_, n_threads_, [&](std::size_t number) {
+      mechanics::for_each_item(colours_, n_threads_, [&](std::size_t number) {
         with_term(lattice_, others_[number], [&](const auto& term) { project(term, multipliers_[number]); });
       });
     }
@@ -113,7 +110,7 @@ class Xpbd {
   std::vector<HookeSpring> springs_;
   std::vector<std::ptrdiff_t> ends_of_colours_;
   std::vector<std::size_t> others_; ///< numbers in nodes_of_terms()
-  Colours colours_;                 ///< of others_
+  mechanics::Colours colours_;      ///< of others_
   std::vector<double> multipliers_; ///< one for each of others_
   std::vector<Eigen::Vector4d> x_,  ///< positions, mm; the fourth entry is 0, so that packs load them whole
       mobility_;                    ///< D^-1, 0 on constrained components
@@ -154,14 +151,12 @@ class Xpbd {
     const auto moved_by = [&](std::size_t a, const Eigen::Vector3d& by) -> Eigen::Vector3d {
       return mobility_[cases::index(nodes[a])].template head<3>().cwiseProduct(by);
     };
-    double weight = 0;
-    for (std::size_t a = 0; a < nodes.size(); ++a)
-      weight += constraint.gradient[a].dot(moved_by(a, constraint.gradient[a]));
-    if (weight == 0) return; // between supports
-    const double change = -(constraint.force + multiplier) / (1 + std::max(constraint.slope, 0.) * weight);
-    multiplier += change;
-    for (std::size_t a = 0; a < nodes.size(); ++a)
-      x_[cases::index(nodes[a])].template head<3>() += moved_by(a, change * constraint.gradient[a]);
+    mechanics::project(
+        nodes.size(), {constraint.force, constraint.slope},
+        [&](std::size_t a) -> const Eigen::Vector3d& { return constraint.gradient[a]; }, moved_by, multiplier,
+        [&](std::size_t a, const Eigen::Vector3d& by) {
+          x_[cases::index(nodes[a])].template head<3>() += by;
+        });
   }
   void project(const Tetrahedron&, double&) {} // refused above
 

@@ -332,6 +332,10 @@ TEST_CASE("steps in real time are refused where they have no meaning") {
   refused(with("method = 'xpbd'", "mass = 'consistent'\n"), "msm.real_time", "consistent");
   refused(replaced(good_case, "split = 0.8", "split = 0.8\nreal_time = { method = 'xpbd' }"), "msm.real_time",
           "material.density");
+  for (const std::string method : {"xpbd", "projective_dynamics"})
+    refused(replaced(replaced(with("method = '" + method + "'"), "split = 0.8\n", ""), "'moduli'",
+                     "'biquadratic'"),
+            "msm.real_time", "vertex_block_descent");
   const auto in_motion = [](const std::string& keys) {
     return replaced(dynamic_case, "mass = 'uniform'", "mass = 'uniform'\nreal_time = { " + keys + " }");
   };

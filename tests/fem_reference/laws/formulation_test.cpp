@@ -1,5 +1,6 @@
 #include "fem_reference/laws/formulation.hpp"
 
+#include "mechanics/laws/neo_hookean.hpp"
 #include "tests/fem_reference/laws/point_law.hpp"
 #include "tests/fem_reference/scenes.hpp"
 
@@ -29,6 +30,7 @@ std::vector<Named> formulations() {
   const auto elastic = scenes::thesis_elastic();
   return {{"small_strain", point_law<SmallStrain>(elastic)},
           {"saint_venant_kirchhoff", point_law<SaintVenantKirchhoff>(elastic)},
+          {"neo_hookean", point_law<AtPoint<mechanics::NeoHookean>>(elastic)},
           {"log_strain", log_strain(elastic)},
           {"small_strain with a fibre", point_law<TransverseSmallStrain>(scenes::fibrous({1, 2, -0.5}))},
           {"log_strain with a fibre", point_law<TransverseLogStrain>(scenes::fibrous({1, 2, -0.5}))},
@@ -101,7 +103,7 @@ TEST_CASE("the stress is the derivative of the energy, where there is one", "[ve
     CHECK(std::abs(law.energy(Matrix3::Identity())) <= 1e-28);
     if (law.kinematics == Kinematics::finite) CHECK(law.energy(turn(0.8)) <= 1e-14); // rounding
   }
-  CHECK(n_laws == 6);
+  CHECK(n_laws == 7);
 }
 
 TEST_CASE("the energy of log_strain is the work on the straight path of logarithmic strain",

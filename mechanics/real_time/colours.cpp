@@ -1,6 +1,6 @@
-#include "msm/real_time/colours.hpp"
+#include "mechanics/real_time/colours.hpp"
 
-namespace springproof::msm {
+namespace springproof::mechanics {
 
 Colours colour(const std::vector<std::vector<int>>& touched, std::size_t n_things) {
   Colours colours;
@@ -8,7 +8,7 @@ Colours colour(const std::vector<std::vector<int>>& touched, std::size_t n_thing
   for (std::size_t item = 0; item < touched.size(); ++item) {
     const auto is_taken = [&](std::size_t one) {
       for (const int thing : touched[item])
-        if (one < colours_at[cases::index(thing)].size() && colours_at[cases::index(thing)][one]) return true;
+        if (one < colours_at[std::size_t(thing)].size() && colours_at[std::size_t(thing)][one]) return true;
       return false;
     };
     std::size_t first = 0;
@@ -16,7 +16,7 @@ Colours colour(const std::vector<std::vector<int>>& touched, std::size_t n_thing
     if (first == colours.size()) colours.emplace_back();
     colours[first].push_back(static_cast<int>(item));
     for (const int thing : touched[item]) {
-      std::vector<bool>& at = colours_at[cases::index(thing)];
+      std::vector<bool>& at = colours_at[std::size_t(thing)];
       if (at.size() <= first) at.resize(first + 1);
       at[first] = true;
     }
@@ -24,15 +24,4 @@ Colours colour(const std::vector<std::vector<int>>& touched, std::size_t n_thing
   return colours;
 }
 
-std::vector<std::vector<int>> nodes_of_terms(const Lattice& lattice) {
-  std::vector<std::vector<int>> all;
-  for_each_kind(lattice, [&](const auto& terms) {
-    for (const auto& term : terms) {
-      const auto nodes = nodes_of(term);
-      all.emplace_back(nodes.begin(), nodes.end());
-    }
-  });
-  return all;
-}
-
-} // namespace springproof::msm
+} // namespace springproof::mechanics

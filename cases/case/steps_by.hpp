@@ -1,0 +1,35 @@
+#pragma once
+
+#include "cases/case/enumeration.hpp"
+#include "cases/case/names.hpp"
+
+#include <optional>
+
+/// Steps as simulators make them: by an amount of work that is given, whatever it leaves.
+namespace springproof::cases {
+
+template<class Method>
+struct StepsBy {
+  Method method{};
+  int iterations = 10;           ///< a substep; explicit methods have none
+  std::optional<int> substeps{}; ///< in a step; absent: 1, of explicit methods as many as are stable
+  // For a body without [dynamics], which is to come to rest:
+  double step = 1. / 60; ///< s
+  double end = 20;       ///< s, within which it must
+  double damping = 2;    ///< mass damping, 1/s
+};
+
+/// How simulators make a step of finite elements whose nodes are the cells' vertices.
+SPRINGPROOF_ENUMERATION(
+    ElementMethod,
+    corotational,              ///< conjugate gradients, a rotation a cell (Mueller and Gross 2004)
+    total_lagrangian_explicit, ///< the law's forces of where the step begins (Miller et al. 2007)
+    xpbd                       ///< a neo-Hookean law as two constraints a cell (Macklin and Mueller 2021)
+)
+inline bool is_explicit(ElementMethod method) {
+  return method == ElementMethod::total_lagrangian_explicit;
+}
+
+using ElementRealTime = StepsBy<ElementMethod>;
+
+} // namespace springproof::cases
