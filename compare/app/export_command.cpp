@@ -29,9 +29,6 @@ std::string error_of(const ExportOptions& options, const std::string& design) {
   try {
     const cases::Scene scene = read_questions({options.file}, settings, {}).front().scene;
     if (scene.definition.measures.empty()) return "";
-    write_paragraph(std::cerr,
-                    fmt::format("solving both models, to say what {} springs err by on this case", design), "",
-                    "  ");
     const JudgedRow springs = Judge(scene, 0).own({}).rows.back();
     if (!springs.worst) return no_answer(springs.failure);
     return fmt::format(", which err by {:.3g} % on this case (its worst measure, {})", *springs.worst,
