@@ -79,12 +79,14 @@ struct RealTime {
   StepMethod method = StepMethod::xpbd;
   int iterations = 10;           ///< a substep; of symplectic_euler there are none
   std::optional<int> substeps{}; ///< in a step; absent: 1, of symplectic_euler as many as are stable
+  /// Spectral radius of an iteration of projective_dynamics, which Chebyshev's method then accelerates.
+  std::optional<double> chebyshev{};
   // For a body without [dynamics], which is to come to rest:
   double step = 1. / 60; ///< s
   double end = 20;       ///< s, within which it must
   double damping = 2;    ///< mass damping, 1/s
 };
-SPRINGPROOF_FIELDS(RealTime, method, iterations, substeps, step, end, damping)
+SPRINGPROOF_FIELDS(RealTime, method, iterations, substeps, chebyshev, step, end, damping)
 
 struct Msm {
   Design design = Design::linear_method;

@@ -262,6 +262,10 @@ RealTime read_real_time(Table& table, const Case& definition) {
       table.optional("iterations", WholeNumber{"a whole number from 1 to 100000", 1, 100000})
           .value_or(real_time.iterations);
   real_time.substeps = table.optional("substeps", up_to_1000);
+  table.refuse_unless(real_time.method == StepMethod::projective_dynamics, {"chebyshev"},
+                      "left out: it belongs to method = \"projective_dynamics\"");
+  real_time.chebyshev = table.optional(
+      "chebyshev", Number{"a number above 0 and below 1", [](double rho) { return rho > 0 && rho < 1; }});
   table.refuse_unless(!definition.dynamics, {"step", "end", "damping"},
                       "left out beside [dynamics], which has its own");
   const Number time{"a time from 1e-7 to 1e6 (s)", [](double t) { return t >= 1e-7 && t <= 1e6; }};

@@ -32,7 +32,7 @@ MakeStep make_step(const cases::RealTime& real_time, const Problem& problem, int
   case cases::StepMethod::xpbd:
     return make_xpbd(problem.lattice, real_time.iterations, n_threads);
   case cases::StepMethod::projective_dynamics:
-    return make_projective_dynamics(problem.lattice, real_time.iterations);
+    return make_projective_dynamics(problem.lattice, real_time.iterations, real_time.chebyshev);
   case cases::StepMethod::vertex_block_descent:
     return make_vertex_block_descent(problem.lattice, real_time.iterations, n_threads);
   case cases::StepMethod::implicit_euler:

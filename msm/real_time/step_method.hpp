@@ -3,6 +3,8 @@
 #include "mechanics/real_time/euler.hpp"
 #include "msm/problem.hpp"
 
+#include <optional>
+
 /// How simulators make a step in time of springs.
 namespace springproof::msm {
 
@@ -17,7 +19,8 @@ inline Points residual_of(const StepEquation& step, const Lattice& lattice, cons
 
 // The methods. The lattice must outlive them.
 MakeStep make_xpbd(const Lattice& lattice, int iterations, int n_threads);
-MakeStep make_projective_dynamics(const Lattice& lattice, int iterations);
+/// @param chebyshev  spectral radius of an iteration; absent: no acceleration
+MakeStep make_projective_dynamics(const Lattice& lattice, int iterations, std::optional<double> chebyshev);
 MakeStep make_vertex_block_descent(const Lattice& lattice, int iterations, int n_threads);
 
 } // namespace springproof::msm

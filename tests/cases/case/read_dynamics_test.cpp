@@ -311,6 +311,10 @@ TEST_CASE("steps in real time are read") {
       read_text(still, {"msm.real_time.method=projective_dynamics", "msm.real_time.iterations=50"});
   REQUIRE(set.msm.real_time);
   CHECK(set.msm.real_time->iterations == 50);
+  CHECK_FALSE(set.msm.real_time->chebyshev);
+  const Case accelerated =
+      read_text(still, {"msm.real_time.method=projective_dynamics", "msm.real_time.chebyshev=0.95"});
+  CHECK(accelerated.msm.real_time->chebyshev == 0.95);
 }
 
 TEST_CASE("steps in real time are refused where they have no meaning") {
@@ -325,6 +329,8 @@ TEST_CASE("steps in real time are refused where they have no meaning") {
   refused(with("method = 'verlet'"), "msm.real_time.method", "vertex_block_descent");
   refused(with("iterations = 3"), "msm.real_time.method", "missing");
   refused(with("method = 'xpbd', iterations = 0"), "msm.real_time.iterations", "from 1");
+  refused(with("method = 'xpbd', chebyshev = 0.9"), "msm.real_time.chebyshev", "projective_dynamics");
+  refused(with("method = 'projective_dynamics', chebyshev = 1"), "msm.real_time.chebyshev", "below 1");
   refused(with("method = 'xpbd', steps = 3"), "steps", "msm.real_time");
   refused(with("method = 'symplectic_euler', iterations = 3"), "msm.real_time.iterations", "explicit");
   refused(with("method = 'xpbd', step = 1e-6, end = 1e5"), "msm.real_time.end", "1e7 steps");

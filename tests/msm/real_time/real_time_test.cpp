@@ -31,7 +31,7 @@ cases::Scene bar(StepMethod method, int iterations, const Vector3d& acceleration
   scene.definition.dynamics->scheme.scheme = cases::Scheme::implicit_euler;
   scene.definition.dynamics->step = 0.01;
   scene.definition.dynamics->end = 0.03;
-  scene.definition.msm.real_time = cases::RealTime{method, iterations, {}, 0.01, 20, 5};
+  scene.definition.msm.real_time = cases::RealTime{method, iterations, {}, {}, 0.01, 20, 5};
   return scene;
 }
 
@@ -81,6 +81,24 @@ TEST_CASE("a method comes to implicit Euler's motion as iterations grow, each as
     CHECK(error[2] < error[1] / 2);
     CHECK(apart(end_of(bar(method, 3000, sideways)), exact) < 1e-7); // Newton's own tolerance leaves 1e-8
   }
+}
+
+TEST_CASE("Chebyshev's method takes projective dynamics to implicit Euler's motion at its own rate",
+          "[verification]") {
+  const msm::Points exact = solved(bar(StepMethod::projective_dynamics, 1, sideways));
+  const auto error = [&](int iterations, std::optional<double> chebyshev) {
+    cases::Scene scene = bar(StepMethod::projective_dynamics, iterations, sideways);
+    scene.definition.msm.real_time->chebyshev = chebyshev;
+    return apart(end_of(scene), exact);
+  };
+  const auto rate = [&](int from, int to, std::optional<double> chebyshev) {
+    return std::pow(error(to, chebyshev) / error(from, chebyshev), 1. / (to - from));
+  };
+  const double radius = rate(200, 300, {}), plain = rate(60, 100, {}), accelerated = rate(60, 100, radius);
+  CAPTURE(radius, plain, accelerated);
+  // In the limit radius/(1 + sqrt(1 - radius²)); the first iterations are of other modes.
+  CHECK(accelerated == Approx(radius / (1 + std::sqrt(1 - radius * radius))).epsilon(0.05));
+  CHECK(error(100, radius) < error(100, {}) / 10);
 }
 
 TEST_CASE("XPBD comes to implicit Euler's motion but for the turning of its gradients", "[verification]") {
@@ -293,7 +311,7 @@ static double sheared_cube_at_rest(StepMethod method, int iterations) {
     if (node.isApprox(Vector3d(0, 0, 10))) vertex = p;
   }
   scene.loads.push_back(load);
-  scene.definition.msm.real_time = cases::RealTime{method, iterations, {}, 1. / 60, 20, 4};
+  scene.definition.msm.real_time = cases::RealTime{method, iterations, {}, {}, 1. / 60, 20, 4};
   msm::DesignRequest request;
   request.material = cases::LinearElastic{0.3, 0.35};
   request.options.design = cases::Design::moduli;
