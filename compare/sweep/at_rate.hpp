@@ -8,7 +8,7 @@
 namespace springproof::compare {
 
 /// Frames' time that a frame may take of what is followed: what is next best may miss the rate.
-constexpr double most_frames = 2;
+constexpr double most_frames = 1.5;
 
 /// Searches by halving. Bodies come to rest, those with [dynamics] move in steps of a frame. Designs whose
 /// springs are among the worst three quarters in equilibrium on a level are left out at rest; what does not

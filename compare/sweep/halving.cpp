@@ -50,30 +50,38 @@ std::vector<std::size_t> order_of_fronts(const std::vector<Point>& points, doubl
 
 std::vector<std::pair<std::size_t, Point>> halve(std::size_t n_candidates, const Halving& halving) {
   std::vector<std::pair<std::size_t, Point>> answered;
+  std::vector<std::pair<std::size_t, std::string>> aside; // those of the latest round first, the best first
   std::vector<std::size_t> order = spread(n_candidates);
   for (int round = 0; round < halving.n_rounds; ++round) {
     answered.clear();
+    std::vector<std::pair<std::size_t, std::string>> left;
+    const std::string of_round = fmt::format("of round {} of {}", round + 1, halving.n_rounds);
     for (const std::size_t candidate : order)
       if (!answered.empty() && !halving.has_time(round))
-        halving.drop(candidate,
-                     fmt::format("the budget of round {} of {} was spent", round + 1, halving.n_rounds));
+        left.emplace_back(candidate, fmt::format("the budget {} was spent", of_round));
       else if (auto point = halving.run(candidate, round))
         answered.emplace_back(candidate, std::move(*point));
-    if (round + 1 == halving.n_rounds) break;
-    std::vector<Point> points;
-    for (const auto& [candidate, point] : answered) points.push_back(point);
-    const std::vector<std::size_t> ranks = order_of_fronts(points, halving.seconds);
     order.clear();
-    const bool is_last_next = round + 2 == halving.n_rounds;
-    for (std::size_t rank = 0; rank < ranks.size(); ++rank) {
-      const auto& [candidate, point] = answered[ranks[rank]];
-      if (2 * rank < ranks.size() || is_last_next)
-        order.push_back(candidate);
-      else
-        halving.drop(candidate,
-                     fmt::format("not in the better half of round {} of {}: about {:.2g} % at {} a frame",
-                                 round + 1, halving.n_rounds, point.error_percent, time_text(point.seconds)));
+    if (round + 1 < halving.n_rounds) {
+      std::vector<Point> points;
+      for (const auto& [candidate, point] : answered) points.push_back(point);
+      for (const std::size_t rank : order_of_fronts(points, halving.seconds)) {
+        const auto& [candidate, point] = answered[rank];
+        const bool is_last_next = round + 2 == halving.n_rounds;
+        if (2 * order.size() < answered.size() || is_last_next)
+          order.push_back(candidate);
+        else
+          left.emplace_back(candidate, fmt::format("not in the better half {}: about {:.2g} % at {} a frame",
+                                                   of_round, point.error_percent, time_text(point.seconds)));
+      }
     }
+    aside.insert(aside.begin(), left.begin(), left.end());
+  }
+  for (const auto& [candidate, why] : aside) {
+    if (!answered.empty())
+      halving.drop(candidate, why);
+    else if (auto point = halving.run(candidate, halving.n_rounds - 1))
+      answered.emplace_back(candidate, std::move(*point));
   }
   return answered;
 }

@@ -25,7 +25,8 @@ struct Halving {
 
 /// Runs all candidates, the better half of them for longer, and so on. A round takes them by their order, the
 /// first one spread over all, until its time is over, but at least one that answers. The last round goes on
-/// with the lesser half as long as there is time: of the better one all may fail.
+/// with the lesser half as long as there is time. Where all of them fail, it goes on with those that were
+/// left behind before, the latest and best first, until one answers.
 /// @return those that the last round has followed through, with their points
 std::vector<std::pair<std::size_t, Point>> halve(std::size_t n_candidates, const Halving& halving);
 

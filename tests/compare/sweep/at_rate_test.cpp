@@ -126,6 +126,19 @@ TEST_CASE("halving without time follows one candidate through, and says why not 
   CHECK(reasons[0] == "the budget of round 1 of 2 was spent");
 }
 
+TEST_CASE("halving goes back to those that it left behind where the better half fails in the end") {
+  std::vector<std::size_t> dropped;
+  const auto found = compare::halve(
+      8, {3, 1e9,
+          [](std::size_t c, int round) {
+            return round == 2 && c < 6 ? std::nullopt : std::optional(point(1 + double(c), 1 + double(c)));
+          },
+          [](int) { return true; }, [&](std::size_t c, const std::string&) { dropped.push_back(c); }});
+  REQUIRE(found.size() == 1); // of the worst half in the first round
+  CHECK(found[0].first == 6);
+  CHECK(dropped == std::vector<std::size_t>{7});
+}
+
 TEST_CASE("the sentence at a rate has the figures of its rows") {
   const Sweep sweep = at_60({row(1, 1e-3, 20), row(5, 4e-3, 12, 11.), row(10, 9e-3, 8, 14.),
                              row(20, 0.025, 3), row(40, 0.05, std::nullopt)});
