@@ -159,7 +159,30 @@ void read_keys(Table& table, TransverselyIsotropic& m) {
   m.fibre = table.required("fibre", read_direction);
 }
 
+/// @param model  "neo_hookean" or "mooney_rivlin"
+Ogden read_mooney_rivlin(Table& table, const std::string& model) {
+  if (model == "neo_hookean") {
+    const double shear_modulus = table.required("shear_modulus", modulus);
+    return mooney_rivlin(shear_modulus / 2, 0, table.optional("bulk_modulus", modulus));
+  }
+  const Number coefficient{"a finite number (MPa)"};
+  const double c10 = table.required("c10", coefficient), c01 = table.required("c01", coefficient);
+  if (!modulus.condition(2 * (c10 + c01)))
+    table.entry("c01").refuse(
+        "a number for which 2 (c10 + c01), the initial shear modulus, is above 0 (MPa), "
+        "from 1e-12 to 1e12");
+  return mooney_rivlin(c10, c01, table.optional("bulk_modulus", modulus));
+}
+
 Material read_material(Table& table) {
+  const Entry model = table.entry("model");
+  std::vector<std::string> names = Kinds<Material>::names();
+  names.insert(names.end(), {"neo_hookean", "mooney_rivlin"});
+  if (model.value<std::string>() == "yeoh")
+    model.refuse("{}: Yeoh's law is not among them; fit --law ogden has one for the same curve",
+                 alternatives(names));
+  if (const std::string name = model.word(names); !contains(Kinds<Material>::names(), name))
+    return read_mooney_rivlin(table, name);
   auto material = table.required("model", read_kind<Material>);
   std::visit([&](auto& kind) { read_keys(table, kind); }, material);
   return material;

@@ -28,6 +28,13 @@ double read_scale(Table& table);
 /// Poisson's ratio of an isotropic material.
 inline constexpr auto is_poissons_ratio = [](double value) { return value > -1 && value < 0.5; };
 
+/// Mooney-Rivlin's law, W = C10 (I1 - 3) + C01 (I2 - 3), in Ogden's terms; neo-Hookean: C01 = 0.
+/// @param c10, c01, bulk_modulus  MPa
+inline Ogden mooney_rivlin(double c10, double c01, std::optional<double> bulk_modulus = std::nullopt) {
+  if (c01 == 0) return {{2 * c10}, {2}, bulk_modulus};
+  return {{2 * c10, 2 * c01}, {2, -2}, bulk_modulus};
+}
+
 /// Reads the materials into a case whose body and [dynamics] are read.  @throws InputError
 void read_materials(Table& root, Case& result);
 

@@ -20,6 +20,7 @@ void add_describe_command(CLI::App& program, Action& chosen); ///< hidden: for t
 void add_design_command(CLI::App& program, Action& chosen);
 void add_eigen_command(CLI::App& program, Action& chosen);
 void add_export_command(CLI::App& program, Action& chosen);
+void add_fit_command(CLI::App& program, Action& chosen);
 void add_gate_command(CLI::App& program, Action& chosen);
 void add_interact_command(CLI::App& program, Action& chosen);
 void add_judge_command(CLI::App& program, Action& chosen);
@@ -75,7 +76,8 @@ CLI::Option* add_workers_option(CLI::App& command, int& n_workers);
 /// --converge, of the commands that hold springs against a limit: the number of meshes, 0 without it.
 CLI::Option* add_converge_option(CLI::App& command, int& meshes);
 
-/// --msm-displacements, --interpolate, --array and --client, of the commands that take another simulator's results.
+/// --msm-displacements, --interpolate, --array and --client, of the commands that take another simulator's
+/// results.
 struct DisplacementOptions {
   std::string file;   ///< empty: our springs are solved, or a client is asked
   std::string client; ///< NAME=COMMAND; empty: there is none
@@ -138,6 +140,11 @@ struct DesignOptions {
 };
 
 void add_design_options(CLI::App& command, DesignOptions& options);
+
+/// --curve with --strain, --stress and --unit of its columns.  @return --curve
+CLI::Option* add_curve_options(CLI::App& command, DesignOptions& options);
+/// The file of --curve.  @throws InputError where the options do not say what its columns are
+msm::UniaxialCurve measured_curve(const DesignOptions& options);
 
 /// Names of designs, or "all", as --designs.
 CLI::Option* add_designs_option(CLI::App& command, std::vector<std::string>& names, const std::string& text);

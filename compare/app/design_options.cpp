@@ -50,10 +50,7 @@ cases::Material material_of(const DesignOptions& o, const std::optional<msm::Uni
         "--neo-hookean, --mooney-rivlin, --yeoh, --curve, or --case");
   if (!o.ogden_mu.empty()) return checked({o.ogden_mu, o.ogden_alpha, std::nullopt});
   if (o.neo_hookean != 0) return checked({{o.neo_hookean}, {2}, std::nullopt});
-  if (const auto& c = o.mooney_rivlin; !c.empty()) { // W = C10 (I1 - 3) + C01 (I2 - 3) in Ogden's terms
-    if (c.at(1) == 0) return checked({{2 * c.at(0)}, {2}, std::nullopt});
-    return checked({{2 * c.at(0), 2 * c.at(1)}, {2, -2}, std::nullopt});
-  }
+  if (const auto& c = o.mooney_rivlin; !c.empty()) return checked(cases::mooney_rivlin(c.at(0), c.at(1)));
   if (!o.yeoh.empty()) // its small-strain material is neo-Hookean
     return checked({{2 * o.yeoh.at(0)}, {2}, std::nullopt});
   if (curve) return at_rest(*curve);
@@ -100,10 +97,7 @@ msm::CurveColumns columns_of(const DesignOptions& o) {
 }
 
 std::optional<msm::UniaxialCurve> curve_of(const DesignOptions& o) {
-  if (!o.curve_file.empty()) {
-    const msm::CurveColumns columns = columns_of(o);
-    return msm::read_curve(cases::read_text_file(o.curve_file), o.curve_file, columns);
-  }
+  if (!o.curve_file.empty()) return measured_curve(o);
   if (!o.curve_strain.empty() || !o.curve_stress.empty() || !o.curve_unit.empty())
     throw cases::InputError("command line: --strain, --stress and --unit are of the columns of --curve");
   if (o.yeoh.empty()) return std::nullopt;
@@ -151,6 +145,27 @@ int n_materials(const DesignOptions& o) {
          !o.yeoh.empty() + !o.curve_file.empty();
 }
 
+msm::UniaxialCurve measured_curve(const DesignOptions& o) {
+  const msm::CurveColumns columns = columns_of(o);
+  return msm::read_curve(cases::read_text_file(o.curve_file), o.curve_file, columns);
+}
+
+CLI::Option* add_curve_options(CLI::App& command, DesignOptions& o) {
+  CLI::Option* curve = command.add_option(
+      "--curve", o.curve_file,
+      "measured uniaxial curve, CSV: strain, stress [, lateral strain]; with --strain and --unit");
+  command.add_option("--strain", o.curve_strain, "what the strains of --curve are")
+      ->check(CLI::IsMember(cases::all_names<msm::CurveStrain>()));
+  command
+      .add_option(
+          "--stress", o.curve_stress,
+          "what the stresses of --curve are; cauchy with logarithmic strains, else nominal, when left out")
+      ->check(CLI::IsMember(cases::all_names<msm::CurveStress>()));
+  command.add_option("--unit", o.curve_unit, "unit of the stresses of --curve")
+      ->check(CLI::IsMember(cases::all_names<msm::CurveUnit>()));
+  return curve;
+}
+
 void add_design_options(CLI::App& command, DesignOptions& o) {
   command.add_option("--case", o.case_file, "material, cell and method of a case file");
   add_set_option(command, o.settings, "override a key of the case: body.cells=[8,8,8], fem.refine=1");
@@ -185,18 +200,7 @@ void add_design_options(CLI::App& command, DesignOptions& o) {
       ->expected(2)
       ->check(number_between(-1e12, 1e12));
   command.add_option("--yeoh", o.yeoh, "C1, C2, ..., MPa")->check(number_between(-1e12, 1e12));
-  command.add_option(
-      "--curve", o.curve_file,
-      "measured uniaxial curve, CSV: strain, stress [, lateral strain]; with --strain and --unit");
-  command.add_option("--strain", o.curve_strain, "what the strains of --curve are")
-      ->check(CLI::IsMember(cases::all_names<msm::CurveStrain>()));
-  command
-      .add_option(
-          "--stress", o.curve_stress,
-          "what the stresses of --curve are; cauchy with logarithmic strains, else nominal, when left out")
-      ->check(CLI::IsMember(cases::all_names<msm::CurveStress>()));
-  command.add_option("--unit", o.curve_unit, "unit of the stresses of --curve")
-      ->check(CLI::IsMember(cases::all_names<msm::CurveUnit>()));
+  add_curve_options(command, o);
   command.add_option("--largest-strain", o.largest_strain,
                      "end of the reference curve's logarithmic strains");
   command.add_option("--paths", o.paths, "deformations that the multi-load method fits; all when left out")

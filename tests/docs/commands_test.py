@@ -33,6 +33,7 @@ DOCUMENTS = {
     ],
     "gate": [[GATED]],
     "design": [["--young", "0.3", "--poisson", "0.3", "--method", "biquadratic"], ["--young", "0.3", "--poisson", "0.3", "--method", "matched"], [BLOCK, "--designs", "hybrid,biquadratic"]],
+    "fit": [["--curve", SOURCE / "cases/studies/palpated_cortex/measured.csv", "--strain", "stretch", "--unit", "kPa", "--law", "ogden"]],
     "eigen": [[MOVING, "--modes", "2"], ["--poisson", "0.35", "--body", "2"]],
     "tables": [["4.1"]],
 }

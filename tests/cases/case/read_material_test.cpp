@@ -40,6 +40,24 @@ TEST_CASE("every material must suit the element and the springs' design") {
                     Catch::Contains("region_material[0]") && Catch::Contains("given"));
 }
 
+TEST_CASE("neo-Hookean and Mooney-Rivlin materials are Ogden's by other names") {
+  const std::string material = "model = 'linear_elastic'\nyoungs_modulus = 0.3\npoissons_ratio = 0.35\n";
+  const auto ogden = [&](const std::string& text) {
+    return std::get<Ogden>(read_text(replaced(good_case, material, text)).material);
+  };
+  const Ogden neo_hookean = ogden("model = 'neo_hookean'\nshear_modulus = 0.3\nbulk_modulus = 2\n");
+  CHECK(neo_hookean.mu == std::vector<double>{0.3});
+  CHECK(neo_hookean.alpha == std::vector<double>{2});
+  CHECK(neo_hookean.bulk_modulus == 2);
+  const Ogden mooney_rivlin = ogden("model = 'mooney_rivlin'\nc10 = 0.1\nc01 = 0.05\nbulk_modulus = 2\n");
+  CHECK(mooney_rivlin.mu == std::vector<double>{0.2, 0.1});
+  CHECK(mooney_rivlin.alpha == std::vector<double>{2, -2});
+  const auto refused = mistakes_in(good_case);
+  refused(material, "model = 'mooney_rivlin'\nc10 = 0.1\nc01 = -0.2\n", 11, "material.c01", {"above 0"});
+  refused(material, "model = 'neo_hookean'\nmu = 0.1\n", 8, "material.shear_modulus", {"missing"});
+  refused(material, "model = 'yeoh'\n", 9, "material.model", {"mooney_rivlin", "fit --law ogden"});
+}
+
 TEST_CASE("a mistake in [material] is refused where it is made") {
   const std::string material = "model = 'linear_elastic'\nyoungs_modulus = 0.3\npoissons_ratio = 0.35\n";
   const auto refused = mistakes_in(good_case);

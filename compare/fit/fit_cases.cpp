@@ -1,0 +1,339 @@
+#include "cases/case/error.hpp"
+#include "cases/case/input_file.hpp"
+#include "cases/case/read_case.hpp"
+#include "cases/case/toml_table.hpp"
+#include "compare/error_bars/convergence.hpp"
+#include "compare/fit/fit.hpp"
+#include "compare/measure/measure.hpp"
+#include "compare/solve/estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace springproof::compare {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+cases::Scene scene_of(const FitCases& all, const FitState& state, const std::vector<std::string>& values) {
+  std::vector<std::string> settings = all.settings;
+  settings.insert(settings.end(), state.settings.begin(), state.settings.end());
+  settings.insert(settings.end(), values.begin(), values.end());
+  cases::Case definition = cases::read_case(state.file, settings);
+  definition.measures.insert(definition.measures.end(), state.markers.begin(), state.markers.end());
+  return make_scene_within_memory(definition);
+}
+
+/// Ends that numbers of these names have in case files.
+FreeParameter parameter_of(const std::string& key, double start) {
+  const std::string name = key.substr(key.rfind('.') + 1);
+  const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
+  if (has("poissons_ratio")) return {key, start, -1, 0.5};
+  if (has("exponent")) return {key, start, -20, 20};
+  if (name == "beta") return {key, start, -1e-9, 2};
+  if (has("split")) return {key, start, -1e-9, 1}; // 0 is among its values
+  if (start > 0 && (has("modulus") || has("stiffness") || has("damping") || has("density")))
+    return {key, start, 0};
+  return {key, start};
+}
+
+/// @param free  KEY or KEY=START
+FreeParameter read_parameter(const FitCases& all, const std::string& free) {
+  const std::size_t equals = free.find('=');
+  const std::string key = free.substr(0, equals);
+  if (equals != std::string::npos) {
+    const auto start = cases::number_in<double>(free.substr(equals + 1));
+    if (!start)
+      throw cases::InputError(fmt::format("--free: {}: starts from \"{}\", must be a finite number", key,
+                                          free.substr(equals + 1)));
+    return parameter_of(key, *start);
+  }
+  const auto start = cases::parse_file(all.files.front(), all.settings).at_path(key).value<double>();
+  if (!start)
+    throw cases::InputError(
+        fmt::format("--free: {}: {} has no number there; say where to start: --free {}=START", key,
+                    all.files.front(), key));
+  return parameter_of(key, *start);
+}
+
+/// The moduli of the body's own material.
+std::vector<std::string> moduli_of(const cases::Case& definition) {
+  if (std::holds_alternative<cases::LinearElastic>(definition.material))
+    return {"material.youngs_modulus", "material.poissons_ratio"};
+  throw cases::InputError(
+      fmt::format("--free: is missing: {} has the material \"{}\"; name the keys to be fitted, "
+                  "such as material.mu[0]",
+                  definition.file, cases::name_of(definition.material)));
+}
+
+/// @param digits  17 are all
+std::vector<std::string> values_of(const std::vector<FreeParameter>& parameters, const VectorXd& values,
+                                   int digits = 17) {
+  std::vector<std::string> settings;
+  for (std::size_t p = 0; p < parameters.size(); ++p)
+    settings.push_back(fmt::format("{}={:.{}g}", parameters[p].name, values[static_cast<Index>(p)], digits));
+  return settings;
+}
+
+const cases::Solution& solution_of(const Answers& answers, cases::Side side) {
+  return (side == cases::Side::fem ? answers.fem : answers.msm).solution;
+}
+
+VectorXd flattened(const std::vector<Eigen::Vector3d>& field) {
+  return Eigen::Map<const VectorXd>(field.front().data(), 3 * static_cast<Index>(field.size()));
+}
+
+/// All data in one vector: those of measures, then the fields, state by state.
+struct Layout {
+  explicit Layout(const FitData& data) {
+    for (const Datum& datum : data.data) state_of.push_back(datum.state);
+    for (std::size_t s = 0; s < data.states.size(); ++s) {
+      field_begin.push_back(static_cast<Index>(state_of.size()));
+      state_of.insert(state_of.end(), 3 * data.states[s].field.size(), s);
+    }
+  }
+  std::vector<std::size_t> state_of; ///< of each value
+  std::vector<Index> field_begin;    ///< of each state
+};
+
+/// Root mean square of the data of one measure: what their errors are in proportion to.
+double size_of(const FitData& data, const std::string& measure) {
+  double sum = 0;
+  int n = 0;
+  for (const Datum& datum : data.data)
+    if (datum.measure.name == measure) {
+      sum += datum.value * datum.value;
+      ++n;
+    }
+  return sum > 0 ? std::sqrt(sum / n) : 1;
+}
+
+/// Markers are of one size together.
+std::string group_of(const Datum& datum) {
+  const std::size_t at = datum.measure.name.find(" at (");
+  return datum.measure.where.key.size() == 2 && at != std::string::npos ? "markers" : datum.measure.name;
+}
+
+Observations observations_of(const FitData& data, const Layout& layout) {
+  const auto n = static_cast<Index>(layout.state_of.size());
+  Observations all{VectorXd(n), VectorXd(n), !data.data.empty() && data.data.front().deviation.has_value()};
+  FitData grouped = data;
+  for (Datum& datum : grouped.data) datum.measure.name = group_of(datum);
+  for (std::size_t d = 0; d < data.data.size(); ++d) {
+    all.values[static_cast<Index>(d)] = data.data[d].value;
+    all.deviations[static_cast<Index>(d)] =
+        data.data[d].deviation.value_or(size_of(grouped, grouped.data[d].measure.name));
+  }
+  for (std::size_t s = 0; s < data.states.size(); ++s) {
+    if (data.states[s].field.empty()) continue;
+    const VectorXd field = flattened(data.states[s].field);
+    all.values.segment(layout.field_begin[s], field.size()) = field;
+    // Every state counts alike, whatever its number of nodes.
+    all.deviations.segment(layout.field_begin[s], field.size()).setConstant(field.norm());
+  }
+  return all;
+}
+
+/// A model's answers in place of the data.
+class Model {
+ public:
+  Model(const FitCases& all, const FitData& data, std::vector<FreeParameter> parameters, cases::Side side,
+        const AnswerQuestions& answer)
+      : all_(all), data_(data), layout_(data), parameters_(std::move(parameters)), side_(side),
+        answer_(answer) {}
+
+  std::vector<Prediction> operator()(const std::vector<VectorXd>& choices) const {
+    std::vector<Prediction> predictions(choices.size());
+    std::vector<Question> questions;
+    std::vector<std::size_t> of_question;
+    for (std::size_t c = 0; c < choices.size(); ++c) {
+      try {
+        std::vector<Question> of_choice;
+        for (const FitState& state : data_.states)
+          of_choice.push_back({scene_of(all_, state, values_of(parameters_, choices[c])), Request{side_}});
+        for (Question& question : of_choice) {
+          questions.push_back(std::move(question));
+          of_question.push_back(c);
+        }
+      } catch (const cases::InputError& error) {
+        predictions[c].failure = error.what();
+      }
+    }
+    if (questions.empty()) return predictions;
+    const std::vector<Answers> answers = answer_(questions);
+    for (std::size_t first = 0; first < questions.size(); first += data_.states.size())
+      predictions[of_question[first]] = read(&questions[first], &answers[first]);
+    return predictions;
+  }
+
+ private:
+  /// Takes the data out of the answers to all states.
+  Prediction read(const Question* questions, const Answers* answers) const {
+    Prediction found{VectorXd(static_cast<Index>(layout_.state_of.size()))};
+    for (std::size_t s = 0; s < data_.states.size(); ++s) {
+      const cases::Solution& solution = solution_of(answers[s], side_);
+      if (solution.status != cases::Status::converged)
+        return {{}, fmt::format("{}: {}", questions[s].scene.definition.name, solution.message)};
+      for (std::size_t d = 0; d < data_.data.size(); ++d) {
+        if (data_.data[d].state != s) continue;
+        const auto value = finite_value(data_.data[d].measure, questions[s].scene, solution);
+        if (const auto* reason = std::get_if<std::string>(&value))
+          return {{},
+                  fmt::format("{}: {}: {}", questions[s].scene.definition.name, data_.data[d].measure.name,
+                              *reason)};
+        found.values[static_cast<Index>(d)] = std::get<double>(value);
+      }
+      if (!data_.states[s].field.empty())
+        found.values.segment(layout_.field_begin[s], 3 * static_cast<Index>(data_.states[s].field.size())) =
+            flattened(solution.displacement);
+    }
+    return found;
+  }
+
+  const FitCases& all_;
+  const FitData& data_;
+  Layout layout_;
+  std::vector<FreeParameter> parameters_;
+  cases::Side side_;
+  const AnswerQuestions& answer_;
+};
+
+std::string place_of(const FitState& state) {
+  const std::string file = state.file.substr(state.file.rfind('/') + 1);
+  return state.settings.empty() ? file : fmt::format("{}", fmt::join(state.settings, ", "));
+}
+
+/// Data of the states that are held out, or of the others.
+FitData part_of(const FitData& data, bool is_held_out) {
+  FitData part;
+  std::vector<std::size_t> number(data.states.size());
+  for (std::size_t s = 0; s < data.states.size(); ++s) {
+    number[s] = part.states.size();
+    if (data.states[s].is_held_out == is_held_out) part.states.push_back(data.states[s]);
+  }
+  for (const Datum& datum : data.data)
+    if (data.states[datum.state].is_held_out == is_held_out) {
+      part.data.push_back(datum);
+      part.data.back().state = number[datum.state];
+    }
+  return part;
+}
+
+/// The data beside the model, and their sums by measure.
+void add_rows(Fit& fit, const FitData& data, const Layout& layout, const Observations& all,
+              const VectorXd& predicted) {
+  const bool is_held_out = data.states.front().is_held_out;
+  const auto add_sum = [&](const std::string& name, const auto& belongs) {
+    std::vector<bool> is_meant;
+    for (std::size_t i = 0; i < layout.state_of.size(); ++i) is_meant.push_back(belongs(i));
+    const auto n = static_cast<std::size_t>(std::count(is_meant.begin(), is_meant.end(), true));
+    if (n > 0)
+      fit.measures.push_back({name, n, prediction_error_percent(all, predicted, is_meant), is_held_out});
+  };
+  std::vector<std::string> names;
+  for (std::size_t d = 0; d < data.data.size(); ++d) {
+    const Datum& datum = data.data[d];
+    fit.rows.push_back({place_of(data.states[datum.state]), datum.measure.name, unit_of(datum.measure),
+                        datum.line, datum.value, predicted[static_cast<Index>(d)], is_held_out});
+    if (!cases::contains(names, group_of(datum))) names.push_back(group_of(datum));
+  }
+  for (const std::string& name : names)
+    add_sum(name, [&](std::size_t i) { return i < data.data.size() && group_of(data.data[i]) == name; });
+  for (std::size_t s = 0; s < data.states.size(); ++s)
+    add_sum(place_of(data.states[s]) + ": displacement",
+            [&](std::size_t i) { return i >= data.data.size() && layout.state_of[i] == s; });
+}
+
+/// Predicts the data of states that are held out, with the fitted values and with those of the start.
+/// @param predict  predicts them
+HeldOut predict_held_out(Fit& fit, const FitData& held, const Predict& predict, const VectorXd& start) {
+  const Layout layout(held);
+  const Observations observations = observations_of(held, layout);
+  const std::vector<Prediction> found = predict({fit.found.parameters, start});
+  for (const Prediction& one : found)
+    if (!one.failure.empty()) return {"named", one.failure};
+  add_rows(fit, held, layout, observations, found[0].values);
+  const std::vector<bool> all(layout.state_of.size(), true);
+  return {"named", "", prediction_error_percent(observations, found[0].values, all),
+          prediction_error_percent(observations, found[1].values, all)};
+}
+
+/// Data of a state are held out together where there are states enough for it.
+std::vector<int> groups_of(const Layout& layout, std::size_t n_states) {
+  std::vector<int> groups;
+  for (std::size_t i = 0; i < layout.state_of.size(); ++i)
+    groups.push_back(static_cast<int>(n_states > 2 ? layout.state_of[i] : i));
+  return groups;
+}
+
+} // namespace
+
+FitData limits_as_data(const FitCases& all, const AnswerQuestions& answer) {
+  FitData data;
+  std::vector<Question> questions;
+  Request request{cases::Side::fem};
+  request.meshes = 3;
+  for (const bool is_held_out : {false, true})
+    for (const std::string& file : is_held_out ? all.held_out : all.files) {
+      data.states.push_back({file, {}, is_held_out});
+      data.states.back().markers.push_back({"displacement", cases::measures::DisplacementFieldL2{}});
+      questions.push_back({scene_of(all, data.states.back(), {}), request});
+      data.states.back().markers.clear();
+    }
+  const std::vector<Answers> answers = answer(questions);
+  for (std::size_t q = 0; q < questions.size(); ++q) {
+    const Answers& found = answers[q];
+    const std::string& file = data.states[q].file;
+    if (!found.fem.converged())
+      throw cases::SolveError(file + ": the finite elements failed: " + found.fem.solution.message);
+    if (!found.refined) throw cases::InputError(file + ": --to limit: there are no refined finite elements");
+    const MeshStudy study =
+        study_meshes(questions[q].scene, *found.refined, questions[q].scene.definition.fem.refine);
+    if (!study.field)
+      throw cases::InputError(
+          fmt::format("{}: --to limit: the finite elements have none: {}; give data, or spread "
+                      "the load over an area",
+                      file, study.measures.back().no_reference));
+    data.states[q].field = study.field->value;
+  }
+  return data;
+}
+
+Fit fit_cases(const FitCases& all, const FitData& data, const std::string& data_name,
+              const std::vector<std::string>& free, cases::Side side, const AnswerQuestions& answer) {
+  std::vector<FreeParameter> parameters;
+  const cases::Case first = cases::read_case(all.files.front(), all.settings);
+  for (const std::string& key : free.empty() ? moduli_of(first) : free)
+    parameters.push_back(read_parameter(all, key));
+  const FitData fitted = part_of(data, false), held = part_of(data, true);
+  if (held.states.empty() && !all.held_out.empty())
+    throw cases::InputError(fmt::format("--hold-out: {} has no data of {}", data_name, all.held_out.front()));
+  const Layout layout(fitted);
+  const Observations observations = observations_of(fitted, layout);
+  const std::size_t n = layout.state_of.size();
+  if (n < parameters.size() || (n == parameters.size() && !observations.are_measured))
+    throw cases::InputError(
+        fmt::format("{}: has {} data to be fitted, must have {} for {} parameters: fit fewer with --free, or "
+                    "give more data{}",
+                    data_name, n, n < parameters.size() ? "at least as many" : "more", parameters.size(),
+                    observations.are_measured ? "" : ", or standard deviations in a column sigma"));
+  const LeastSquaresProblem problem(parameters, observations, Model(all, fitted, parameters, side, answer));
+  for (const FitState& state : data.states) scene_of(all, state, values_of(parameters, problem.start()));
+  Fit fit{side == cases::Side::fem ? "finite elements" : "springs", data_name, parameters,
+          problem.fit(problem.start(), std::vector<bool>(n, true))};
+  fit.n_data = n;
+  fit.has_deviations = observations.are_measured;
+  if (!fit.found.has_values()) return fit;
+  add_rows(fit, fitted, layout, observations, fit.found.predicted);
+  fit.held_out =
+      held.states.empty()
+          ? cross_validate(problem, fit.found, groups_of(layout, fitted.states.size()))
+          : predict_held_out(fit, held, Model(all, held, parameters, side, answer), problem.start());
+  fit.settings = values_of(parameters, fit.found.parameters, 10);
+  return fit;
+}
+
+} // namespace springproof::compare

@@ -1,0 +1,153 @@
+#include "cases/case/error.hpp"
+#include "compare/error_bars/auto_fem.hpp"
+#include "compare/fit/fit.hpp"
+#include "tests/support/case_text.hpp"
+
+#include <catch2/catch.hpp>
+#include <iomanip>
+#include <random>
+#include <sstream>
+
+using namespace springproof;
+using namespace compare;
+
+namespace {
+
+/// An eighth of a bar under tension, whose strains are the same everywhere: u = (-nu x, -nu y, z) T/E.
+const std::string bar = R"(schema = 1
+name = "bar"
+body = { shape = "box", size = [10, 10, 10], cells = [2, 2, 2] }
+material = { model = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3 }
+symmetry = [{ plane = "x-" }, { plane = "y-" }, { plane = "z-" }]
+load = [{ region = "z+", kind = "traction", value = [0, 0, 0.01] }]
+fem = { formulation = "small_strain", element = "q1" }
+msm = { design = "hybrid" }
+measure = [{ name = "length", kind = "displacement", node = "near 0 0 10", component = "z" },
+           { name = "volume", kind = "volume" },
+           { name = "everywhere", kind = "displacement_field_l2" }]
+)";
+
+/// A clamped block that bends under its load.
+const std::string block = R"(schema = 1
+name = "block"
+body = { shape = "box", size = [4, 4, 12], cells = [1, 1, 3] }
+material = { model = "linear_elastic", youngs_modulus = 0.3, poissons_ratio = 0.3 }
+fixed = [{ region = "z-" }]
+load = [{ region = "z+", kind = "traction", value = [1e-4, 0, 0] }]
+msm = { design = "hybrid" }
+measure = [{ name = "drop", kind = "displacement", node = "near 0 0 12", component = "x" }]
+)";
+
+/// Solves in this process.
+std::vector<Answers> answer(const std::vector<Question>& questions) {
+  std::vector<Answers> all;
+  for (const Question& question : questions)
+    all.push_back(solve(question.scene, question.request, solve_fem));
+  return all;
+}
+
+constexpr double true_modulus = 0.62, true_ratio = 0.41;
+
+/// Markers on three lines through the body as their displacements are, to a part of each.
+template<class Random>
+std::string markers(double part, Random& random) {
+  std::normal_distribution<double> noise(0, 1);
+  std::ostringstream text;
+  text << std::setprecision(17) << "x,y,z,ux,uy,uz,ux sigma,uy sigma,uz sigma\n";
+  for (int i = 1; i <= 20; ++i) {
+    const double at = i / 2., strain = 0.01 / true_modulus, along = strain * at, across = -true_ratio * along;
+    const auto measured = [&](double value) { return value * (1 + part * noise(random)); };
+    const double sigma = std::max(part, 1e-6); // of no noise, too
+    text << at << ',' << at << ',' << at << ',' << measured(across) << ',' << measured(across) << ','
+         << measured(along) << ',' << sigma * std::abs(across) << ',' << sigma * std::abs(across) << ','
+         << sigma * along << '\n';
+  }
+  return text.str();
+}
+
+Fit fit_bar(const FitCases& cases, const std::string& data, cases::Side side = cases::Side::fem,
+            const std::vector<std::string>& free = {}) {
+  return fit_cases(cases, read_fit_data(data, "data.csv", cases), "data.csv", free, side, answer);
+}
+
+} // namespace
+
+TEST_CASE("markers of a bar have its Young's modulus and Poisson's ratio", "[verification]") {
+  const TemporaryFolder folder;
+  std::mt19937 random(1);
+  const FitCases cases{{folder.write("bar.toml", bar)}, {}, {}};
+  const std::string data = markers(0, random);
+  const Fit fem = fit_bar(cases, data);
+  REQUIRE(fem.found.has_values());
+  CHECK(fem.found.parameters[0] == Approx(true_modulus).epsilon(1e-6)); // the bar is exact; 1e-7 of the fit
+  CHECK(fem.found.parameters[1] == Approx(true_ratio).epsilon(1e-6));
+  CHECK(fem.n_data == 60);
+  CHECK(fem.held_out.error_percent < 1e-3);
+  CHECK(fem.settings.at(0).rfind("material.youngs_modulus=0.62", 0) == 0);
+  const Fit springs = fit_bar(cases, data, cases::Side::msm);
+  REQUIRE(springs.found.has_values());
+  CHECK(springs.found.parameters[0] == Approx(true_modulus).epsilon(0.05)); // strains of 1.6 % are not small
+  CHECK(springs.found.parameters[1] == Approx(true_ratio).epsilon(0.05));
+}
+
+TEST_CASE("drops of a block do not tell Poisson's ratio beside Young's modulus") {
+  const TemporaryFolder folder;
+  const FitCases cases{{folder.write("block.toml", block)}, {}, {}};
+  const std::string data = "load[0].value[0],drop,sigma\n1e-4,0.32,0.003\n2e-4,0.64,0.006\n3e-4,0.96,0.009\n";
+  const Fit both = fit_bar(cases, data, cases::Side::msm);
+  REQUIRE(both.found.undetermined.size() == 1);
+  CHECK_THAT(both.found.undetermined[0], Catch::Contains("poissons_ratio"));
+  CHECK(both.settings.empty());
+  const Fit one = fit_bar(cases, data, cases::Side::msm, {"material.youngs_modulus=0.5"});
+  REQUIRE(one.found.has_values());
+  CHECK(one.held_out.how == "3-fold");
+  std::ostringstream text;
+  write_fit_text(text, both);
+  CHECK_THAT(text.str(), Catch::Contains("undetermined") && Catch::Contains("No value is given"));
+}
+
+TEST_CASE("data of a case that is held out are predicted, not fitted") {
+  const TemporaryFolder folder;
+  const std::string other = case_text::replaced(block, "\"block\"", "\"other\"");
+  const FitCases cases{{folder.write("block.toml", block)}, {folder.write("other.toml", other)}, {}};
+  const std::string rows = "case,load[0].value[0],drop\nblock,1e-4,0.32\nblock,2e-4,0.63\nother,3e-4,";
+  const Fit good = fit_bar(cases, rows + "0.95\n", cases::Side::msm, {"material.youngs_modulus"});
+  const Fit bad = fit_bar(cases, rows + "1.9\n", cases::Side::msm, {"material.youngs_modulus"});
+  REQUIRE(good.found.has_values());
+  CHECK(good.found.parameters[0] == bad.found.parameters[0]);
+  CHECK(good.held_out.how == "named");
+  REQUIRE(good.held_out.error_percent);
+  REQUIRE(bad.held_out.error_percent);
+  CHECK(*good.held_out.error_percent < 3);
+  CHECK(*bad.held_out.error_percent > 40);
+  CHECK(good.rows.at(2).is_held_out);
+}
+
+TEST_CASE("springs come nearer to refined finite elements by a fit, and other loads show by how much") {
+  const TemporaryFolder folder;
+  const std::string pulled = case_text::replaced(case_text::replaced(block, "\"block\"", "\"pulled\""),
+                                                 "[1e-4, 0, 0]", "[0, 0, 1e-3]");
+  const FitCases cases{{folder.write("block.toml", block)}, {folder.write("pulled.toml", pulled)}, {}};
+  const FitData data = limits_as_data(cases, answer);
+  const Fit fit = fit_cases(cases, data, "limit", {"material.youngs_modulus"}, cases::Side::msm, answer);
+  REQUIRE(fit.found.has_values());
+  CHECK(fit.rows.empty());
+  REQUIRE(fit.measures.size() == 2);
+  CHECK(fit.measures[0].error_percent < 30); // coarse cells bend too little; a fit of E mends most of it
+  REQUIRE(fit.held_out.start_error_percent);
+}
+
+TEST_CASE("what cannot be fitted is refused with what to do") {
+  const TemporaryFolder folder;
+  const FitCases cases{{folder.write("bar.toml", bar)}, {}, {}};
+  const auto refused = [&](const std::string& data, const std::vector<std::string>& free,
+                           const std::string& says) {
+    CHECK_THROWS_WITH(fit_bar(cases, data, cases::Side::msm, free), Catch::Contains(says));
+  };
+  refused("length\n0.1\n", {}, "data.csv: has 1 data to be fitted, must have at least as many for 2");
+  refused("length\n0.1\n", {"material.youngs_modulus"}, "standard deviations in a column sigma");
+  refused("length,sigma\n0.1,0.1\n", {"material.mu[0]"}, "say where to start: --free material.mu[0]=START");
+  refused("length,sigma\n0.1,0.1\n", {"material.youngs_modulus=soft"}, "must be a finite number");
+  refused("length,sigma\n0.1,0.1\n", {"material.young=1"}, "material.young: is not a key here");
+  refused("body.cells,length,sigma\n0,0.1,0.1\n", {"material.youngs_modulus"}, "body.cells");
+}
