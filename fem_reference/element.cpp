@@ -217,8 +217,23 @@ void CellKernel::condense_bubbles(const CellGeometry& g, Wanted wanted) {
   result_.tangent = stiffness_(nodes, nodes) + coupling * result_.internal_slope;
 }
 
+/// P = F S, so dP_iJ/dF_kL has S_JL for i = k.
+void CellKernel::remember(Kinematics kinematics, const Matrix3& f, int point, Wanted wanted) {
+  const int first = CellMemory::n * point;
+  const double factor = memory_.factor[first];
+  const double* const r = memory_.remembered + first;
+  Matrix3 s;
+  s << r[0], r[5], r[4], r[5], r[1], r[3], r[4], r[3], r[2];
+  const bool is_finite = kinematics == Kinematics::finite;
+  stress_.stress = factor * stress_.stress + flatten(is_finite ? Matrix3(f * s) : s);
+  if (wanted == Wanted::stress) return;
+  stress_.tangent *= factor;
+  for (int i = 0; i < 3 && is_finite; ++i) stress_.tangent.block<3, 3>(3 * i, 3 * i) += s;
+}
+
 const CellResult& CellKernel::evaluate(const CellGeometry& g, const double* displacement,
-                                       const double* internal, Wanted wanted) {
+                                       const double* internal, Wanted wanted, const CellMemory& memory) {
+  memory_ = memory;
   force_.setZero();
   result_.valid = add_points(g, with_bubbles(g, displacement, internal), internal, wanted);
   if (!result_.valid) return result_;

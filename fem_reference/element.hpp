@@ -73,6 +73,14 @@ struct CellResult {
   Eigen::VectorXd plain_force;       ///< internal force without the condensed imbalance
 };
 
+/// What the memory of its material makes of a cell's second Piola-Kirchhoff stress S and pressure p at a
+/// point, constants of a step: factor S + remembered. Both are in the material's axes, which do not turn with
+/// the body. Numbers are [7*q + c]: S as xx, yy, zz, yz, xz, xy, and p, MPa.
+struct CellMemory {
+  static constexpr int n = 7, pressure = 6;              ///< numbers of a point, and p among them
+  const double *factor = nullptr, *remembered = nullptr; ///< null: nothing is remembered
+};
+
 /// Loop over the points of a cell, its buffers kept between cells; LawKernel adds the law.
 ///
 /// Internal force f = sum w (P + p cof F) . grad N. With pressure modes phi_m the cell also balances
@@ -91,7 +99,13 @@ class CellKernel {
   /// @param internal      the element's n_internal() unknowns; ignored without any
   /// @return valid until the next call
   const CellResult& evaluate(const CellGeometry& geometry, const double* displacement, const double* internal,
-                             Wanted wanted);
+                             Wanted wanted, const CellMemory& memory = {});
+  /// Writes what a memory is of: the elastic S and p of the cell's points. The pressure of a constant mode is
+  /// that of the cell's mean dilatation.  @param elastic  [7*q + c], as in CellMemory
+  void elastic(const CellGeometry& geometry, const double* displacement, const double* internal,
+               double* elastic) {
+    elastic_of(geometry, with_bubbles(geometry, displacement, internal), elastic);
+  }
   /// Strain energy of the cell in a state that evaluate() finds valid, N mm. With pressure modes the volume
   /// ratios follow from the pressures.
   double energy(const CellGeometry& geometry, const double* displacement, const double* internal) {
@@ -106,6 +120,9 @@ class CellKernel {
   /// Calls add_point() for every point.  @return false at one that is inverted or not a number
   virtual bool add_points(const CellGeometry& geometry, const double* displacement, const double* pressure,
                           Wanted wanted) = 0;
+  virtual void elastic_of(const CellGeometry& geometry, const double* displacement, double* elastic) = 0;
+  /// Adds a point's memory to its stress_, which is without the pressure.
+  void remember(Kinematics kinematics, const Matrix3& f, int point, Wanted wanted);
   /// @param displacement  of the first n_functions functions, mm
   static Matrix3 displacement_gradient(const CellGeometry& geometry, int point, const double* displacement,
                                        int n_functions);
@@ -113,6 +130,7 @@ class CellKernel {
   void add_point(const CellGeometry& geometry, int point, Wanted wanted);
 
   ElementType element_;
+  CellMemory memory_;
   PointStress stress_;             ///< at the point, with its pressure
   std::vector<double> dilatation_; ///< J - 1
   std::vector<Matrix3, Eigen::aligned_allocator<Matrix3>> cofactor_;

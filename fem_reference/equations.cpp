@@ -31,9 +31,43 @@ std::size_t Assembly::unknown(int cell, std::size_t k) const {
          k / n;
 }
 
-CellKernel& Assembly::kernel(int cell) const {
+std::size_t Assembly::material_of(int cell) const {
   const auto& material = discretisation_.material_of_cell;
-  return *kernels_[material.empty() ? 0 : index(material[index(cell)])];
+  return material.empty() ? 0 : index(material[index(cell)]);
+}
+
+CellKernel& Assembly::kernel(int cell) const {
+  return *kernels_[material_of(cell)];
+}
+
+void Assembly::set_memory(const cases::Case& definition) {
+  memory_.reset();
+  if (!cases::has_memory(definition)) return;
+  std::vector<mechanics::FadingMemory::Branch> branches;
+  for (const auto& [tau, of_material] : mechanics::prony_branches(definition)) {
+    mechanics::Vector part(discretisation_.nodes.n_cells * n_of_memory());
+    for (Eigen::Index i = 0; i < part.size(); ++i) {
+      const auto& own = of_material[material_of(static_cast<int>(i / n_of_memory()))];
+      part[i] = i % CellMemory::n == CellMemory::pressure ? own.k : own.g;
+    }
+    branches.push_back({tau, std::move(part)});
+  }
+  memory_.emplace(branches);
+}
+
+CellMemory Assembly::memory_of(int cell) const {
+  if (!memory_) return {};
+  const auto first = static_cast<std::ptrdiff_t>(cell) * n_of_memory();
+  return {memory_->factor().data() + first, memory_->remembered().data() + first};
+}
+
+mechanics::Vector Assembly::elastic_stresses(const State& state) {
+  mechanics::Vector all(discretisation_.nodes.n_cells * n_of_memory());
+  for_each_cell(state, [&](int cell, const CellGeometry& geometry, const double* at, const double* internal) {
+    kernel(cell).elastic(geometry, at, internal,
+                         all.data() + static_cast<std::ptrdiff_t>(cell) * n_of_memory());
+  });
+  return all;
 }
 
 const double* Assembly::internal(int cell, const State& state) const {
@@ -92,7 +126,7 @@ std::optional<InternalImbalance> Assembly::assemble(const State& state, const st
     if (wants_tangent) std::fill_n(with_internals.data(), n_unknowns, 0.);
     for (int cell = 0; cell < d.nodes.n_cells; ++cell) {
       const CellResult& result = kernel(cell).evaluate(d.geometry.of(cell), displacement(cell, state),
-                                                       internal(cell, state), wanted);
+                                                       internal(cell, state), wanted, memory_of(cell));
       if (!result.valid) {
         imbalance.reset();
         break;
@@ -215,6 +249,7 @@ void EquilibriumEquations::set_in_motion(const cases::Scene& scene,
                                          const std::vector<Formulation>& formulations) {
   const auto& d = discretisation_;
   motion_.emplace(Motion{make_inertia(scene, d, formulations), {}});
+  assembly_.set_memory(scene.definition);
   set_loads(scene, [&](const cases::Scene& alone) {
     const std::vector<double> load = d.load_of(alone);
     State force = rest();
@@ -234,8 +269,10 @@ void EquilibriumEquations::supports_at(double time, State& displacement) const {
 }
 
 void EquilibriumEquations::set_step(const mechanics::StepTerms& terms) {
-  const bool is_another = !step_ || terms.mass != step_->mass || terms.damping != step_->damping;
+  const bool is_another = !step_ || terms.mass != step_->mass || terms.damping != step_->damping ||
+                          (assembly_.memory() && terms.duration != step_->duration);
   step_.emplace(terms);
+  if (assembly_.memory()) assembly_.memory()->set_step(terms.duration);
   if (!is_another) return;
   motion_->added = terms.mass * motion_->inertia.mass + terms.damping * motion_->inertia.damping;
   has_tangent_ = false;

@@ -5,6 +5,7 @@
 #include "fem_reference/inertia.hpp"
 #include "fem_reference/laws/formulation.hpp"
 #include "fem_reference/linear_solver.hpp"
+#include "mechanics/dynamics/fading_memory.hpp"
 #include "mechanics/petsc/distributed_problem.hpp"
 
 namespace springproof::fem_reference {
@@ -47,11 +48,21 @@ class Assembly {
       action(cell, discretisation_.geometry.of(cell), displacement(cell, state), internal(cell, state));
   }
 
+  /// Gives the cells the memory of a scene's materials, which begin_motion(), set_step() and end_step() of
+  /// mechanics::DynamicProblem change.
+  void set_memory(const cases::Case& definition);
+  mechanics::FadingMemory* memory() { return memory_ ? &*memory_ : nullptr; }
+  /// Stresses that it is of.
+  mechanics::Vector elastic_stresses(const State& state);
+
   std::size_t n_internal() const { return n_internal_; }
   Mat tangent() const { return tangent_.get(); }
 
  private:
   CellKernel& kernel(int cell) const;
+  std::size_t material_of(int cell) const;
+  int n_of_memory() const { return CellMemory::n * discretisation_.element.n_points(); }
+  CellMemory memory_of(int cell) const;
   const double* internal(int cell, const State& state) const;
   /// Displacement of a cell's nodes, mm, kept until the next call.
   const double* displacement(int cell, const State& state);
@@ -63,6 +74,7 @@ class Assembly {
 
   const Discretisation& discretisation_;
   std::vector<std::unique_ptr<CellKernel>> kernels_; ///< one for each material
+  std::optional<mechanics::FadingMemory> memory_;    ///< of [n_of_memory()*cell + 7*q + c], see CellMemory
   Matrix tangent_;
   std::vector<double> internal_residual_, internal_slope_; ///< every cell's, as in CellResult
   std::vector<double> cell_displacement_;
@@ -113,6 +125,12 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   void complete(State& motion) override;
   /// Makes residuals those of the step, relative to its scale, whatever the load factor.
   void set_step(const mechanics::StepTerms& terms) override;
+  void begin_motion(const State& at) override {
+    if (assembly_.memory()) assembly_.memory()->begin(assembly_.elastic_stresses(at));
+  }
+  void end_step(const State& at, double length) override {
+    if (assembly_.memory()) assembly_.memory()->end_step(assembly_.elastic_stresses(at), length);
+  }
 
   /// See Assembly.
   template<class Action>

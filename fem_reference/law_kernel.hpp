@@ -2,7 +2,9 @@
 
 #include "fem_reference/element.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
+#include <vector>
 
 namespace springproof::fem_reference {
 
@@ -43,9 +45,10 @@ class LawKernel final : public CellKernel {
       const bool is_admissible = is_finite_inside_out<Law> ? std::isfinite(change) : change > -1;
       if (!is_admissible) return false;
       dilatation_[point] = change;
+      const Matrix3 f = Matrix3::Identity() + h;
       law_.stress(h, wanted, stress_);
+      if (memory_.factor) remember(kinematics, f, q, wanted);
       if constexpr (Law::traits.split == Split::pressure) {
-        const Matrix3 f = Matrix3::Identity() + h;
         cofactor_[point] = cofactor(kinematics, f);
         add_pressure(f, q, pressure_at(g, q, change, pressure), wanted);
       }
@@ -63,10 +66,40 @@ class LawKernel final : public CellKernel {
 
   /// With modes the pressure is interpolated and its slope left to condensation.
   ValueAndSlope pressure_at(const CellGeometry& g, int q, double change, const double* pressure) {
-    if (element_.pressure == Pressure::pointwise) return law_.pressure(change);
+    const int at = CellMemory::n * q + CellMemory::pressure;
+    const double factor = memory_.factor ? memory_.factor[at] : 1,
+                 remembered = memory_.factor ? memory_.remembered[at] : 0;
+    if (element_.pressure == Pressure::pointwise) {
+      const ValueAndSlope elastic = law_.pressure(change);
+      return {factor * elastic.value + remembered, factor * elastic.slope};
+    }
     const double p = interpolated(g, q, pressure);
-    target_[static_cast<std::size_t>(q)] = law_.dilatation(p);
+    const ValueAndSlope target = law_.dilatation((p - remembered) / factor);
+    target_[static_cast<std::size_t>(q)] = {target.value, target.slope / factor};
     return {p, 0};
+  }
+
+  void elastic_of(const CellGeometry& g, const double* displacement, double* elastic) override {
+    double growth = 0, volume = 0;
+    std::vector<double> change(static_cast<std::size_t>(g.n_points));
+    for (int q = 0; q < g.n_points; ++q) {
+      const Matrix3 h = displacement_gradient(g, q, displacement, g.n_functions);
+      change[static_cast<std::size_t>(q)] = dilatation(kinematics, h);
+      growth += g.weights[q] * change[static_cast<std::size_t>(q)];
+      volume += g.weights[q];
+      law_.stress(h, Wanted::stress, stress_);
+      Matrix3 s = stress_.stress.template reshaped<Eigen::RowMajor>(3, 3);
+      if (kinematics == Kinematics::finite) s = (Matrix3::Identity() + h).inverse() * s;
+      double* const to = elastic + CellMemory::n * q;
+      for (int c = 0; c < 3; ++c) to[c] = s(c, c), to[3 + c] = s((c + 1) % 3, (c + 2) % 3);
+      to[CellMemory::pressure] = 0;
+    }
+    if constexpr (Law::traits.split == Split::pressure)
+      for (int q = 0; q < g.n_points; ++q)
+        elastic[CellMemory::n * q + CellMemory::pressure] =
+            law_.pressure(element_.pressure == Pressure::pointwise ? change[static_cast<std::size_t>(q)]
+                                                                   : growth / volume)
+                .value;
   }
 
   void add_pressure(const Matrix3& f, int q, const ValueAndSlope& pressure, Wanted wanted) {

@@ -1,7 +1,5 @@
 #include "msm/lattice.hpp"
 
-#include "msm/tangent.hpp"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <tuple>
@@ -149,7 +147,7 @@ double VolumePatch::small_motion_energy(const Points& rest, const Points& motion
 }
 
 Points VolumePatch::forces(const Points& x) const {
-  const double pressure = stiffness * law(x).pressure;
+  const double pressure = stiffness * law(x).pressure + remembered;
   Points all = gradient(x);
   for (Vector3d& force : all) force *= -pressure;
   return all;
@@ -157,6 +155,7 @@ Points VolumePatch::forces(const Points& x) const {
 
 Eigen::MatrixXd VolumePatch::tangent_matrix(const Points& x, Clamp clamp) const {
   const VolumeLaw at = law(x);
+  const double pressure = stiffness * at.pressure + remembered;
   const Points slope = gradient(x);
   Eigen::VectorXd all(3 * slope.size());
   for (std::size_t v = 0; v < slope.size(); ++v) all.segment<3>(static_cast<Eigen::Index>(3 * v)) = slope[v];
@@ -166,7 +165,7 @@ Eigen::MatrixXd VolumePatch::tangent_matrix(const Points& x, Clamp clamp) const 
     const Blocks<4> second = volume_second_derivative(at_nodes(places, x));
     for (std::size_t a = 0; a < 4; ++a)
       for (std::size_t b = 0; b < 4; ++b)
-        matrix.block<3, 3>(3 * places[a], 3 * places[b]) += stiffness * at.pressure / 4 * second[a][b];
+        matrix.block<3, 3>(3 * places[a], 3 * places[b]) += pressure / 4 * second[a][b];
   }
   return matrix;
 }
@@ -209,14 +208,14 @@ EdgeValues Tetrahedron::squared_length_changes(const TetrahedronPositions& x) co
 }
 
 EdgeValues Tetrahedron::tensions(const TetrahedronPositions& x) const {
-  EdgeValues all = 2 * stiffness * squared_length_changes(x);
+  EdgeValues all = 2 * density(x);
   for_each_edge(x, [&](Eigen::Index e, int, int, const Vector3d& d) { all[e] *= d.norm(); });
   return all;
 }
 
 double Tetrahedron::energy(const TetrahedronPositions& x) const {
   const EdgeValues changes = squared_length_changes(x);
-  return 0.5 * changes.dot(stiffness * changes);
+  return 0.5 * changes.dot(stiffness * changes) + changes.dot(remembered);
 }
 
 double Tetrahedron::small_motion_energy(const TetrahedronPositions& rest,
@@ -229,7 +228,7 @@ double Tetrahedron::small_motion_energy(const TetrahedronPositions& rest,
 }
 
 TetrahedronPositions Tetrahedron::forces(const TetrahedronPositions& x) const {
-  const EdgeValues tension = stiffness * squared_length_changes(x);
+  const EdgeValues tension = density(x);
   TetrahedronPositions all;
   all.fill(Vector3d::Zero());
   for_each_edge(x, [&](Eigen::Index e, int a, int b, const Vector3d& d) {
@@ -240,7 +239,7 @@ TetrahedronPositions Tetrahedron::forces(const TetrahedronPositions& x) const {
 }
 
 TetrahedronMatrix Tetrahedron::tangent_matrix(const TetrahedronPositions& x, Clamp clamp) const {
-  const EdgeValues tension = stiffness * squared_length_changes(x);
+  const EdgeValues tension = density(x);
   Eigen::Matrix<double, 12, 6> gradients = Eigen::Matrix<double, 12, 6>::Zero(); // gradients of Delta_e
   TetrahedronMatrix tangent = TetrahedronMatrix::Zero();
   for_each_edge(x, [&](Eigen::Index e, int a, int b, const Vector3d& d) {
@@ -255,146 +254,6 @@ TetrahedronMatrix Tetrahedron::tangent_matrix(const TetrahedronPositions& x, Cla
   });
   tangent += gradients * stiffness * gradients.transpose();
   return tangent;
-}
-
-namespace {
-
-/// The nodes of a term as seen from the first, at positions or displaced from rest.
-template<std::size_t n>
-SPRINGPROOF_INLINE Positions<n> seen(const std::array<int, n>& nodes, const Points& positions) {
-  if constexpr (n == 2) // a spring takes the difference of its ends itself
-    return {positions[index(nodes[0])], positions[index(nodes[1])]};
-  Positions<n> x = at_nodes(nodes, positions);
-  for (std::size_t v = n; v-- > 0;) x[v] -= x[0];
-  return x;
-}
-SPRINGPROOF_INLINE Points seen(const std::vector<int>& nodes, const Points& positions) {
-  Points x = at_nodes(nodes, positions);
-  for (std::size_t v = x.size(); v-- > 0;) x[v] -= x[0];
-  return x;
-}
-template<class Nodes>
-auto seen(const Nodes& nodes, const Points& rest, const Points& displacement) {
-  auto x = at_nodes(nodes, rest);
-  const auto moved = at_nodes(nodes, displacement);
-  for (std::size_t v = x.size(); v-- > 0;) x[v] = (x[v] - x[0]) + (moved[v] - moved[0]);
-  return x;
-}
-
-template<class Energy>
-double sum_over_terms(const Lattice& lattice, const Energy& energy_of) {
-  double sum = 0;
-  for_each_kind(lattice, [&](const auto& terms) {
-    for (const auto& term : terms) sum += energy_of(term, nodes_of(term));
-  });
-  return sum;
-}
-
-/// @param points  positions, or rest and displacement
-template<class... Places>
-double energy_of(const Lattice& lattice, const Places&... points) {
-  return sum_over_terms(
-      lattice, [&](const auto& term, const auto& nodes) { return term.energy(seen(nodes, points...)); });
-}
-
-template<class Term, class... Places>
-void add_forces(const Term& term, Points& force, const Places&... points) {
-  const auto forces = term.forces(seen(term.nodes, points...));
-  for (std::size_t v = 0; v < term.nodes.size(); ++v) force[index(term.nodes[v])] += forces[v];
-}
-Vector3d between(const Link& link, const Points& positions) {
-  return positions[index(link.j)] - positions[index(link.i)];
-}
-Vector3d between(const Link& link, const Points& rest, const Points& displacement) {
-  return between(link, rest) + between(link, displacement);
-}
-/// A spring's two forces are one vector: by way of arrays they take a tenth longer.
-template<class... Places>
-void add_forces(const Link& link, Points& force, const Places&... points) {
-  const Vector3d pull = spring_force(between(link, points...), link.spring);
-  force[index(link.i)] += pull;
-  force[index(link.j)] -= pull;
-}
-
-/// @param points  positions, or rest and displacement
-template<class... Places>
-Points force_of(const Lattice& lattice, const Places&... points) {
-  Points force(lattice.rest.size(), Vector3d::Zero());
-  for_each_kind(lattice, [&](const auto& terms) {
-    for (const auto& term : terms) add_forces(term, force, points...);
-  });
-  return force;
-}
-
-/// Whether a spring is under no tension at rest; other terms never are.
-bool is_relaxed(const Link& link, const Positions<2>& rest) {
-  const double length = (rest[1] - rest[0]).norm();
-  return std::abs(length - link.spring.rest_length) <= 1e-12 * length;
-}
-template<class Term, class Rest>
-bool is_relaxed(const Term&, const Rest&) {
-  return true;
-}
-
-/// Whether no edge of a term changes by midpoint_below of its length, and none is under tension at rest.
-bool is_small(const Lattice& lattice, const Points& displacement) {
-  bool are_small = true;
-  for_each_kind(lattice, [&](const auto& terms) {
-    are_small =
-        are_small && std::all_of(terms.begin(), terms.end(), [&](const auto& term) {
-          const auto rest = at_nodes(nodes_of(term), lattice.rest),
-                     moved = at_nodes(nodes_of(term), displacement);
-          return is_relaxed(term, rest) &&
-                 std::all_of(term.edges.begin(), term.edges.end(), [&](const std::array<int, 2>& edge) {
-                   const std::size_t a = index(edge[0]), b = index(edge[1]);
-                   return (moved[b] - moved[a]).norm() < midpoint_below * (rest[b] - rest[a]).norm();
-                 });
-        });
-  });
-  return are_small;
-}
-
-/// K(u part) u, with the tangent at a part of the way to the displacement, as seen from the first point.
-Points tangent_product(const Lattice& lattice, const Points& displacement, double part) {
-  Points at = lattice.rest, product(at.size(), Vector3d::Zero());
-  for (std::size_t p = 0; p < at.size(); ++p)
-    at[p] = (lattice.rest[p] - lattice.rest[0]) + part * displacement[p];
-  visit_tangent_blocks(lattice, at, Clamp::no, [&](int row, int column, const Matrix3d& block) {
-    product[index(row)] += block * displacement[index(column)];
-    if (row != column) product[index(column)] += block.transpose() * displacement[index(row)];
-  });
-  return product;
-}
-
-} // namespace
-
-double energy(const Lattice& lattice, const Points& positions) {
-  return energy_of(lattice, positions);
-}
-
-double energy_at(const Lattice& lattice, const Points& displacement) {
-  if (!is_small(lattice, displacement)) return energy_of(lattice, lattice.rest, displacement);
-  const Points force = tangent_product(lattice, displacement, 1. / 3);
-  double sum = 0;
-  for (std::size_t p = 0; p < force.size(); ++p) sum += force[p].dot(displacement[p]) / 2;
-  return sum;
-}
-
-double small_motion_energy(const Lattice& lattice, const Points& motion) {
-  return sum_over_terms(lattice, [&](const auto& term, const auto& nodes) {
-    return term.small_motion_energy(at_nodes(nodes, lattice.rest), at_nodes(nodes, motion));
-  });
-}
-
-Points internal_force(const Lattice& lattice, const Points& positions) {
-  return force_of(lattice, positions);
-}
-
-Points internal_force_at(const Lattice& lattice, const Points& displacement) {
-  if (!is_small(lattice, displacement)) return force_of(lattice, lattice.rest, displacement);
-  Points force = tangent_product(lattice, displacement, 0.5);
-  for (Vector3d& of_point : force) of_point = -of_point;
-  return force;
 }
 
 } // namespace springproof::msm

@@ -137,12 +137,17 @@ struct VolumeCell {
   double stiffness;         ///< k_v, MPa
   double rest_volume;       ///< mm³
   bool is_logarithmic = false;
+  double remembered = 0; ///< MPa, pressure that a material's memory adds to the law's
 
   /// Returns the cell's law at these positions.
   VolumeLaw law(const CellPositions& x) const {
     return volume_law(volume_of(x) / rest_volume, is_logarithmic);
   }
-  double energy(const CellPositions& x) const { return stiffness * rest_volume * law(x).integral; }
+  double energy(const CellPositions& x) const {
+    const double volume = volume_of(x);
+    return stiffness * rest_volume * volume_law(volume / rest_volume, is_logarithmic).integral +
+           remembered * (volume - rest_volume);
+  }
   double small_motion_energy(const CellPositions& rest, const CellPositions& motion) const {
     const CellPositions gradient = volume_gradient(rest);
     double change = 0;
@@ -150,14 +155,14 @@ struct VolumeCell {
     return 0.5 * stiffness / rest_volume * change * change;
   }
   CellPositions forces(const CellPositions& x) const {
-    const double pressure = stiffness * law(x).pressure;
+    const double pressure = stiffness * law(x).pressure + remembered;
     CellPositions all = volume_gradient(x);
     for (Eigen::Vector3d& force : all) force *= -pressure;
     return all;
   }
   auto tangent(const CellPositions& x, Clamp clamp) const {
     const VolumeLaw at = law(x);
-    return [=, pressure = stiffness * at.pressure, slope = stiffness / rest_volume * at.slope,
+    return [=, pressure = stiffness * at.pressure + remembered, slope = stiffness / rest_volume * at.slope,
             gradient = volume_gradient(x),
             second = volume_second_derivative(x)](std::size_t a, std::size_t b) -> Eigen::Matrix3d {
       Eigen::Matrix3d block = slope * gradient[a] * gradient[b].transpose();
@@ -177,13 +182,18 @@ struct VolumePatch {
   double stiffness;                           ///< MPa
   double rest_volume;                         ///< mm³
   bool is_logarithmic = false;
+  double remembered = 0; ///< MPa, as VolumeCell's
 
   double volume(const Points& x) const;
   Points gradient(const Points& x) const; ///< dV/dx, mm²
   VolumeLaw law(const Points& x) const { return volume_law(volume(x) / rest_volume, is_logarithmic); }
   /// The law at a displacement from rest: no digits of a small change of volume are lost.
   VolumeLaw law_at(const Points& rest, const Points& displacement) const;
-  double energy(const Points& x) const { return stiffness * rest_volume * law(x).integral; }
+  double energy(const Points& x) const {
+    const double now = volume(x);
+    return stiffness * rest_volume * volume_law(now / rest_volume, is_logarithmic).integral +
+           remembered * (now - rest_volume);
+  }
   double small_motion_energy(const Points& rest, const Points& motion) const;
   Points forces(const Points& x) const;
   /// Degree of freedom 3*place + component.
@@ -218,11 +228,16 @@ EdgeMatrix biquadratic_stiffness(const TetrahedronPositions& rest, double lambda
 struct Tetrahedron {
   static constexpr auto& edges = tetrahedron_edges;
   std::array<int, 4> nodes;
-  EdgeMatrix stiffness;    ///< N/mm³
-  EdgeValues rest_lengths; ///< mm
+  EdgeMatrix stiffness;                       ///< N/mm³
+  EdgeValues rest_lengths;                    ///< mm
+  EdgeValues remembered = EdgeValues::Zero(); ///< N/mm, what a material's memory adds to K Delta
 
   /// Delta_e, mm².
   EdgeValues squared_length_changes(const TetrahedronPositions& x) const;
+  /// K Delta, N/mm, and what is remembered.
+  EdgeValues density(const TetrahedronPositions& x) const {
+    return stiffness * squared_length_changes(x) + remembered;
+  }
   /// Tensions of the edges, N: each pulls its ends together with 2 (K Delta)_e l_e, below 0 when they are
   /// pushed apart.
   EdgeValues tensions(const TetrahedronPositions& x) const;
@@ -286,6 +301,15 @@ inline Points at_nodes(const std::vector<int>& nodes, const Points& values) {
   picked.reserve(nodes.size());
   for (const int node : nodes) picked.push_back(values[cases::index(node)]);
   return picked;
+}
+
+/// Where the nodes of a term are as seen from the first: far from the origin positions have lost digits.
+template<class Nodes>
+auto seen(const Nodes& nodes, const Points& rest, const Points& displacement) {
+  auto x = at_nodes(nodes, rest);
+  const auto moved = at_nodes(nodes, displacement);
+  for (std::size_t v = x.size(); v-- > 0;) x[v] = (x[v] - x[0]) + (moved[v] - moved[0]);
+  return x;
 }
 
 /// Sum of all energies of springs, tetrahedra and volume terms at these positions, N mm.

@@ -26,11 +26,13 @@ bool takes_multigrid(const cases::Scene& scene, const SpringBody& springs, Path 
     return !(cell.exponents == cells->front().exponents) || *std::min_element(k.begin(), k.end()) < 0 ||
            cell.volume < 0;
   };
-  const bool can = scene.mesh.grid && cells && std::none_of(cells->begin(), cells->end(), is_another);
+  const bool can = scene.mesh.grid && cells && !cases::has_memory(scene.definition) &&
+                   std::none_of(cells->begin(), cells->end(), is_another);
   if (wanted == Path::multigrid && !can)
     throw cases::InputError(
         "the multigrid path needs a body that is a grid of cells of edges, face diagonals, "
-        "internal diagonals and a volume term, springs of one law, and no negative stiffness");
+        "internal diagonals and a volume term, springs of one law, no negative stiffness, and "
+        "a material without prony");
   if (wanted != Path::automatic) return wanted == Path::multigrid;
   return can && prefers_multigrid(*scene.mesh.grid, double(scene.mesh.nodes.size()));
 }
@@ -106,8 +108,11 @@ MovingBody::MovingBody(const cases::Scene& scene, const SpringBody& springs, con
   } else {
     problem_.lattice = make_lattice(scene.mesh, springs);
     statics_ = make_direct_system(problem_);
-    motion_ =
-        make_moving_lattice(problem_, *statics_, make_inertia(scene, make_lattice(scene.mesh, damping)));
+    auto memory = cases::has_memory(scene.definition)
+                      ? std::make_unique<SpringMemory>(scene, springs, problem_.lattice)
+                      : nullptr;
+    motion_ = make_moving_lattice(problem_, *statics_, make_inertia(scene, make_lattice(scene.mesh, damping)),
+                                  std::move(memory));
     if (real_time) motion_->step_by(step_method(*real_time, problem_, options.n_threads));
   }
   find_entries();

@@ -41,6 +41,7 @@ struct Spring {
   double stiffness;   ///< k at rest, N/mm
   double rest_length; ///< l0, mm, > 0
   SpringLaw law{};
+  double remembered = 0; ///< N, tension that a material's memory adds to the law's
 };
 
 /// action(law) with the spring's rest length and parameter.
@@ -53,8 +54,10 @@ SPRINGPROOF_INLINE auto with_law(const Spring& spring, const Action& action) {
 
 /// Energy of a spring: Hooke's is k/2 (|d| - l0)².  @param d  x_j - x_i, mm  @return N mm
 inline double spring_energy(const Eigen::Vector3d& d, const Spring& spring) {
-  return with_law(spring,
-                  [&](const auto& law) { return law.twice_energy(d.squaredNorm(), spring.stiffness) / 2; });
+  const double energy = with_law(
+      spring, [&](const auto& law) { return law.twice_energy(d.squaredNorm(), spring.stiffness) / 2; });
+  if (spring.remembered == 0) return energy;
+  return energy + spring.remembered * (d.norm() - spring.rest_length);
 }
 
 /// What a spring's second derivative is made of.
@@ -75,9 +78,9 @@ inline SpringSlopes spring_slopes(double length, const Spring& spring) {
 /// @param d  x_j - x_i, mm  @return N
 /// Source: thesis eq. 4.8 (Hooke); minus the gradient of spring_energy() with respect to x_i.
 inline Eigen::Vector3d spring_force(const Eigen::Vector3d& d, const Spring& spring) {
-  return with_law(spring,
-                  [&](const auto& law) { return law.transverse(d.squaredNorm(), spring.stiffness); }) *
-         d;
+  const double of_law =
+      with_law(spring, [&](const auto& law) { return law.transverse(d.squaredNorm(), spring.stiffness); });
+  return (spring.remembered == 0 ? of_law : of_law + spring.remembered / d.norm()) * d;
 }
 
 /// Second derivative of spring_energy() with respect to d:
@@ -88,10 +91,16 @@ inline Eigen::Vector3d spring_force(const Eigen::Vector3d& d, const Spring& spri
 /// negative
 inline Eigen::Matrix3d spring_stiffness(const Eigen::Vector3d& d, const Spring& spring, Clamp clamp) {
   const double squared = d.squaredNorm(), k = spring.stiffness;
-  const SpringTangent<double> tangent = with_law(spring, [&](const auto& law) {
+  SpringTangent<double> tangent = with_law(spring, [&](const auto& law) {
     return clamp == Clamp::yes ? law.template tangent<Clamp::yes>(squared, k)
                                : law.template tangent<Clamp::no>(squared, k);
   });
+  if (spring.remembered != 0) { // a tension that does not change with the length
+    const double along = tangent.transverse + tangent.along * squared;
+    const double transverse = spring_force(d, spring).dot(d) / squared;
+    tangent.transverse = clamp == Clamp::yes ? not_negative(transverse) : transverse;
+    tangent.along = (along - tangent.transverse) / squared;
+  }
   return tangent.transverse * Eigen::Matrix3d::Identity() + tangent.along * d * d.transpose();
 }
 

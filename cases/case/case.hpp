@@ -80,6 +80,19 @@ inline bool has_stiffness_damping(const Case& definition) {
   return has;
 }
 
+/// What a material adds to its elasticity.  @param material  as materials_of() numbers them
+inline const MaterialDynamics& dynamics_of(const Case& definition, std::size_t material) {
+  return material == 0 ? definition.material_dynamics : definition.region_materials[material - 1].dynamics;
+}
+
+/// Whether the body's own material, or that of a region, has a Prony series.
+inline bool has_memory(const Case& definition) {
+  bool has = false;
+  for (std::size_t m = 0; m <= definition.region_materials.size(); ++m)
+    has = has || !dynamics_of(definition, m).prony.empty();
+  return has;
+}
+
 /// Whether there is a body that finite elements can be made of.
 inline bool has_finite_elements(const Case& definition) {
   return has_cells(definition.body) || definition.fem_body;

@@ -60,13 +60,25 @@ struct History {
 };
 SPRINGPROOF_FIELDS(History, points, frequency)
 
-/// What a material adds to its elasticity: C = mass_damping M + stiffness_damping K(rest) of its cells.
+/// A term of a Prony series: parts g and k of the instantaneous shear and bulk modulus that fade with the
+/// time tau,
+///   G(t) = G0 (1 - sum g (1 - exp(-t/tau))),  K(t) = K0 (1 - sum k (1 - exp(-t/tau))).
+/// A case's own moduli are those that are left in the end: G0 = G/(1 - sum g), K0 = K/(1 - sum k).
+struct PronyTerm {
+  double g = 0, k = 0; ///< from 0; each sum is below 1
+  double tau = 1;      ///< s, > 0
+};
+SPRINGPROOF_FIELDS(PronyTerm, g, k, tau)
+
+/// What a material adds to its elasticity: C = mass_damping M + stiffness_damping K(rest) of its cells, and
+/// its memory.
 struct MaterialDynamics {
   std::optional<double> density; ///< kg/m³
   double mass_damping = 0;       ///< alpha, 1/s, >= 0
   double stiffness_damping = 0;  ///< beta, s, >= 0
+  std::vector<PronyTerm> prony{};
 };
-SPRINGPROOF_FIELDS(MaterialDynamics, density, mass_damping, stiffness_damping)
+SPRINGPROOF_FIELDS(MaterialDynamics, density, mass_damping, stiffness_damping, prony)
 
 /// Mass matrix of the finite elements.
 SPRINGPROOF_ENUMERATION(ElementMass, consistent,

@@ -56,6 +56,31 @@ Element default_element(Formulation formulation, const std::vector<Material>& ma
   return has_pressure && is_stiff ? Element::p2_p0 : Element::p2;
 }
 
+namespace {
+
+/// Refuses a Prony series that the finite elements' stress cannot have.
+void check_memory(const Case& definition) {
+  const Fem& fem = definition.fem;
+  bool has_k = false, are_equal = true;
+  for (std::size_t m = 0; m <= definition.region_materials.size(); ++m)
+    for (const PronyTerm& term : dynamics_of(definition, m).prony) {
+      has_k = has_k || term.k > 0;
+      are_equal = are_equal && term.g == term.k;
+    }
+  if (fem.formulation == Formulation::saint_venant_kirchhoff && !are_equal)
+    refuse(fem.where,
+           "formulation is \"{}\", whose stress has no separate pressure: material.prony must have k "
+           "equal to g beside it",
+           name_of(fem.formulation));
+  if ((fem.element == Element::q2_p1 || fem.element == Element::p2_p1) && has_k)
+    refuse(fem.where,
+           "element is \"{}\", whose pressure is linear and has no memory: material.prony must have "
+           "k = 0 beside it, or take another element",
+           name_of(fem.element));
+}
+
+} // namespace
+
 void settle_element(Case& definition, bool is_tetrahedron) {
   Fem& fem = definition.fem;
   if (facts_of(fem.element).is_mixed && has_stiffness_damping(definition))
@@ -64,11 +89,10 @@ void settle_element(Case& definition, bool is_tetrahedron) {
         "element is \"{}\", must be \"{}\" or one without a pressure beside stiffness_damping: dampers are "
         "of single cells, and its pressure is of the whole body",
         name_of(fem.element), name_of(Element::p2_p0));
-  if (facts_of(fem.element).is_tetrahedron == is_tetrahedron) return;
-  if (fem.has_auto_element) {
+  if (facts_of(fem.element).is_tetrahedron != is_tetrahedron && fem.has_auto_element)
     fem.element = default_element(fem.formulation, materials_of(definition), is_tetrahedron);
-    return;
-  }
+  check_memory(definition);
+  if (facts_of(fem.element).is_tetrahedron == is_tetrahedron) return;
   refuse(fem.where, "element is \"{}\", must be {}: the body is a mesh of {}", name_of(fem.element),
          alternatives(elements_of(fem.formulation, is_tetrahedron)),
          is_tetrahedron ? "tetrahedra" : "hexahedra");

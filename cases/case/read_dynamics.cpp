@@ -130,6 +130,38 @@ void check_densities(Table& root, const Case& definition) {
                                                  : "density must be left out as in [material]");
 }
 
+/// Reads [{ g = ..., k = ..., tau = ... }, ...].
+std::vector<PronyTerm> read_prony(const Entry& entry) {
+  const auto is_part = [](double part) { return part >= 0 && part < 1; };
+  const Number part{"a number from 0 and below 1, a part of the instantaneous modulus", is_part};
+  const Number time{"a number from 1e-9 to 1e9 (s)", [](double tau) { return tau >= 1e-9 && tau <= 1e9; }};
+  std::vector<PronyTerm> terms;
+  double g = 0, k = 0;
+  for (const Entry& element : entry.elements("a list of { g = ..., k = ..., tau = ... }")) {
+    Table table(element, "{ g = ..., k = ..., tau = ... }");
+    PronyTerm term;
+    term.g = table.required("g", part);
+    term.k = table.optional("k", part).value_or(0);
+    term.tau = table.required("tau", time);
+    table.refuse_unknown_keys();
+    terms.push_back(term);
+    g += term.g, k += term.k;
+  }
+  if (!(g < 1 && k < 1))
+    entry.refuse("terms whose g, and whose k, add up to less than 1: what is left carries the load at rest");
+  return terms;
+}
+
+void check_memory(const Case& definition) {
+  if (!has_memory(definition)) return;
+  if (definition.msm.real_time)
+    refuse(definition.msm.where,
+           "real_time must be left out beside material.prony: its methods have no memory");
+  for (const PronyTerm& term : definition.material_dynamics.prony)
+    if (!has_cells(definition.body) && term.k > 0)
+      refuse(definition.msm.where, "a network has no volume terms: material.prony must have k = 0");
+}
+
 } // namespace
 
 std::optional<Dynamics> read_dynamics(Table& root) {
@@ -145,6 +177,10 @@ MaterialDynamics read_material_dynamics(Table& table, bool has_dynamics) {
       time{"a number, 0 or above (s)", is_not_negative};
   result.mass_damping = table.optional("mass_damping", rate).value_or(0);
   result.stiffness_damping = table.optional("stiffness_damping", time).value_or(0);
+  table.refuse_unless(
+      has_dynamics, {"prony"},
+      "left out without [dynamics]: the moduli are those of rest, where nothing is remembered");
+  result.prony = table.optional("prony", read_prony).value_or(std::vector<PronyTerm>{});
   return result;
 }
 
@@ -165,6 +201,7 @@ std::optional<OverTime> read_over_time(Table& table, const measures::Kind& kind,
 void check_dynamics(Table& root, const Case& definition) {
   check_densities(root, definition);
   if (!definition.dynamics) return;
+  check_memory(definition);
   for (std::size_t i = 0; i < definition.moved.size(); ++i)
     check_motion(definition.moved[i], definition.dynamics->start, i);
   check_turns_in_time(definition);

@@ -271,10 +271,7 @@ std::vector<Vector3d> nodal_forces(const Scene& scene) {
 }
 
 CellDynamics dynamics_of(const Scene& scene, std::size_t cell) {
-  const int material = material_of(scene, cell);
-  const MaterialDynamics& dynamics = material == 0
-                                         ? scene.definition.material_dynamics
-                                         : scene.definition.region_materials[index(material - 1)].dynamics;
+  const MaterialDynamics& dynamics = dynamics_of(scene.definition, index(material_of(scene, cell)));
   return {dynamics.density.value_or(0) * tonnes_per_mm3, dynamics.mass_damping, dynamics.stiffness_damping};
 }
 

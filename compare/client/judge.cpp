@@ -185,6 +185,9 @@ std::vector<std::string> set_steps(cases::Case& definition, const cases::RealTim
   for (cases::RegionMaterial& region : definition.region_materials)
     damping += std::exchange(region.dynamics.stiffness_damping, 0);
   if (damping > 0) ignored.push_back("stiffness_damping");
+  if (cases::has_memory(definition)) ignored.push_back("prony");
+  definition.material_dynamics.prony.clear();
+  for (cases::RegionMaterial& region : definition.region_materials) region.dynamics.prony.clear();
   return ignored;
 }
 

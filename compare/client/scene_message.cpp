@@ -107,6 +107,8 @@ std::string scene_message(const cases::Scene& scene, const ClientBudget& budget)
   const auto& dynamics = scene.definition.dynamics;
   if (dynamics && dynamics->start != cases::MotionStart::rest)
     throw cases::SolveError("clients start at rest, and this motion starts in equilibrium");
+  if (cases::has_memory(scene.definition))
+    throw cases::SolveError("clients are told of springs without a memory, and this case has material.prony");
   const std::vector<double> times = frame_times(scene);
   Message message;
   message.header = {{"springproof", "scene"},

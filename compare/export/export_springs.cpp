@@ -268,7 +268,8 @@ std::optional<ExportedMotion> exported_motion(const cases::Scene& scene) {
                         scene.definition.material_dynamics.stiffness_damping,
                         true,
                         scene.moved,
-                        {}};
+                        {},
+                        cases::has_memory(scene.definition)};
   for (const cases::RegionMaterial& region : scene.definition.region_materials)
     if (region.dynamics.stiffness_damping != motion.stiffness_damping)
       motion.has_one_stiffness_damping = false;
@@ -312,10 +313,11 @@ std::vector<std::string> export_springs(const std::string& folder, ExportTarget 
   std::vector<std::string> said =
       is_csv ? write_csv_files(folder, problem, body) : write_vtu_file(folder, problem);
   if (motion)
-    said.push_back(
-        fmt::format("not in it: {}damping, steps and histories of [dynamics] (--to sofa writes them); "
-                    "loads and motions are those at a factor of 1",
-                    is_csv ? "" : "masses, "));
+    said.push_back(fmt::format("not in it: {}damping{}, steps and histories of [dynamics]{}; "
+                               "loads and motions are those at a factor of 1",
+                               is_csv ? "" : "masses, ",
+                               motion->has_memory ? ", the materials' memory (prony)" : "",
+                               motion->has_memory ? "" : " (--to sofa writes them)"));
   return said;
 }
 

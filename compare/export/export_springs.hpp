@@ -18,6 +18,7 @@ struct ExportedMotion {
   bool has_one_stiffness_damping;              ///< whether all materials have this one
   std::vector<cases::Scene::MovedNodes> moved; ///< by their histories
   msm::Points start;                           ///< mm, one per point; empty: it starts undeformed
+  bool has_memory = false;                     ///< some material has a Prony series
 };
 
 /// The lattice, supports and loads of a scene.

@@ -169,6 +169,7 @@ std::vector<std::string> inexpressible_in_sofa(const ExportedMotion& motion) {
       all.emplace_back("mass_damping of some masses and not of others (several materials, or [[mass]])");
       break;
     }
+  if (motion.has_memory) all.emplace_back("prony, the materials' memory");
   if (!motion.has_one_stiffness_damping) all.emplace_back("several materials' stiffness_damping");
   if (motion.stiffness_damping > 0 && !motion.moved.empty())
     all.emplace_back("stiffness_damping beside moved regions, whose velocity SOFA takes for 0");

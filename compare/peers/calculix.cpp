@@ -127,6 +127,7 @@ std::optional<std::string> reason_without_calculix_motion(const cases::Case& def
     return "its scheme is newmark with beta = 1/4 and gamma = 1/2";
   if (definition.fem.formulation != cases::Formulation::small_strain) return "its motion is linear";
   if (definition.dynamics->start != cases::MotionStart::rest) return "its motion begins at rest";
+  if (cases::has_memory(definition)) return "its input has no Prony series";
   if (definition.material_dynamics.mass_damping > 0 || definition.material_dynamics.stiffness_damping > 0)
     return "its implicit steps have no damping";
   for (const cases::Load& load : definition.loads)

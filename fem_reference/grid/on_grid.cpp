@@ -46,6 +46,7 @@ bool is_on_grid(const cases::Scene& scene) {
   if (!scene.mesh.grid) return false;
   if (fem.element == cases::Element::q2_p1) return false;
   if (scene.definition.dynamics && fem.element == cases::Element::q2) return false; // has no masses there
+  if (cases::has_memory(scene.definition)) return false;
   std::size_t n_parameters = 0;
   for (const cases::Material& material : cases::materials_of(scene.definition)) {
     if (std::holds_alternative<cases::TransverselyIsotropic>(material)) return false;

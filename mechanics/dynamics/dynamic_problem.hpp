@@ -3,6 +3,7 @@
 #include "cases/case/dynamics.hpp"
 #include "mechanics/equilibrium/nonlinear_problem.hpp"
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,8 @@ struct StepTerms {
   std::optional<int> enough_linear_iterations = {};
   /// One of several to the time asked for, and not the last: nobody asks what it leaves of its equation.
   bool is_substep = false;
+  /// s from the step's beginning to its equation: what a material's memory fades in. Infinite: all has faded.
+  double duration = std::numeric_limits<double>::infinity();
 };
 
 /// Nonlinear equations of a body that has mass. Masses are in tonnes (N s²/mm). In a step in time
@@ -65,6 +68,12 @@ class DynamicProblem : public NonlinearProblem {
 
   /// Sets the step of all later evaluations. What the terms refer to must live until the next call.
   virtual void set_step(const StepTerms& terms) = 0;
+
+  /// Makes a material's memory that of a body that has always been at this displacement.
+  virtual void begin_motion(const Vector& /*displacement*/) {}
+  /// Takes a step into that memory.
+  /// @param displacement  mm, at the step's end    @param length  s
+  virtual void end_step(const Vector& /*displacement*/, double /*length*/) {}
 
  protected:
   /// Returns a norm over its scale, 0 for a norm of 0; for size().

@@ -47,6 +47,7 @@ double TimeIntegrator::kinetic_energy() {
 
 /// Finds the forces at the start and the acceleration that they give: M a = F - C v - f_int(u).
 void TimeIntegrator::start() {
+  problem_.begin_motion(now_.displacement);
   problem_.external_force(now_.time, force_);
   scale_ = norm(force_);
   problem_.damping_product(now_.velocity, product_);
@@ -81,6 +82,7 @@ bool TimeIntegrator::try_step(double to, double target) {
   scale_ = std::max(scale_, load);
   add_known_forces(c);
   StepTerms terms{c.mass, c.damping, now_.displacement, force_, supports_, scale_};
+  terms.duration = c.place * step;
   if (!has_loads_) { // velocity, or supports that move, drive the body
     predict(c, to, Guess::displacement_stays);
     terms.scale = 1;
@@ -194,6 +196,7 @@ void TimeIntegrator::finish_step(const StepCoefficients& c, double to) {
       now_.acceleration + (c.mass * place_ - known_ - now_.acceleration) / c.place_acceleration;
   step_ = next_.acceleration - now_.acceleration;
   is_smooth_ = norm(step_) < norm(next_.acceleration);
+  problem_.end_step(next_.displacement, to - now_.time);
   if (scheme_.scheme == cases::Scheme::bdf2) {
     if (!before_) before_ = now_;
     std::swap(*before_, now_);

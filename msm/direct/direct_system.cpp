@@ -259,16 +259,28 @@ Matrix joined(const Problem& problem, const std::vector<double>& cell_mass, cons
 
 class MovingLattice : public MovingSprings {
  public:
-  MovingLattice(const Problem& problem, SpringSystem& springs, const Inertia& inertia)
+  MovingLattice(const Problem& problem, SpringSystem& springs, const Inertia& inertia,
+                std::unique_ptr<SpringMemory> memory)
       : MovingSprings(springs, entries_of(problem, inertia,
                                           [&](const Points& points) { return on_free(problem, points); })),
-        problem_(problem), springs_(springs), tangent_(problem.lattice, problem.is_constrained),
-        mass_(joined(problem, inertia.cell_mass, nullptr)),
+        problem_(problem), springs_(springs), memory_(std::move(memory)),
+        tangent_(problem.lattice, problem.is_constrained), mass_(joined(problem, inertia.cell_mass, nullptr)),
         damping_(joined(problem, inertia.cell_mass_damping, &inertia.damping)) {
     free_mass_ = on_free_dofs(entries().mass, mass_);
     free_damping_ = on_free_dofs(entries().mass_damping, damping_);
     const OneThread one;
     factorisation_.analyse(matrix_at(problem.lattice.rest, Clamp::no, 0, 0));
+  }
+
+  void begin_motion(const Vector& at) override {
+    if (memory_) memory_->begin(to_points(problem_, at));
+  }
+  void set_step(const mechanics::StepTerms& terms) override {
+    MovingSprings::set_step(terms);
+    if (memory_) memory_->set_step(terms.duration);
+  }
+  void end_step(const Vector& at, double length) override {
+    if (memory_) memory_->end_step(to_points(problem_, at), length);
   }
 
   bool direction(const Vector& at, const Vector& residual, double /*load_factor*/, double /*forcing*/,
@@ -295,6 +307,7 @@ class MovingLattice : public MovingSprings {
  private:
   const Problem& problem_;
   SpringSystem& springs_;
+  std::unique_ptr<SpringMemory> memory_;
   Tangent tangent_;
   Matrix mass_, damping_;           ///< what joins nodes, of all entries of a vector
   Matrix free_mass_, free_damping_; ///< M and C on free degrees of freedom, lower triangles
@@ -328,8 +341,9 @@ class MovingLattice : public MovingSprings {
 } // namespace
 
 std::unique_ptr<MovingSprings> make_moving_lattice(const Problem& problem, SpringSystem& springs,
-                                                   const Inertia& inertia) {
-  return std::make_unique<MovingLattice>(problem, springs, inertia);
+                                                   const Inertia& inertia,
+                                                   std::unique_ptr<SpringMemory> memory) {
+  return std::make_unique<MovingLattice>(problem, springs, inertia, std::move(memory));
 }
 
 } // namespace springproof::msm

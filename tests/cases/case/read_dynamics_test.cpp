@@ -167,6 +167,31 @@ TEST_CASE("a mistake in masses, gravity or damping is refused where it is made")
           14, "region_material[0]", {"density is missing"});
 }
 
+TEST_CASE("a Prony series is read, and refused where it has no meaning") {
+  const auto with = [](const std::string& prony) {
+    return replaced(dynamic_case, "mass_damping = 0.5", "prony = " + prony);
+  };
+  const Case c = read_text(with("[{ g = 0.2, tau = 0.1 }, { g = 0.1, k = 0.3, tau = 2 }]"));
+  REQUIRE(c.material_dynamics.prony.size() == 2);
+  CHECK(c.material_dynamics.prony[0].k == 0);
+  CHECK(c.material_dynamics.prony[1].g == 0.1);
+  CHECK(c.material_dynamics.prony[1].k == 0.3);
+  CHECK(c.material_dynamics.prony[1].tau == 2);
+  const auto refused = [&](const std::string& prony, const std::string& key, const std::string& text) {
+    INFO(prony);
+    CHECK_THROWS_WITH(read_text(with(prony)),
+                      Catch::Contains("material.prony" + key) && Catch::Contains(text));
+  };
+  refused("[{ g = -0.2, tau = 0.1 }]", "[0].g", "from 0 and below 1");
+  refused("[{ g = 1, tau = 0.1 }]", "[0].g", "from 0 and below 1");
+  refused("[{ g = 0.2, k = -1, tau = 0.1 }]", "[0].k", "from 0 and below 1");
+  refused("[{ g = 0.2, tau = 0 }]", "[0].tau", "1e-9 to 1e9 (s)");
+  refused("[{ g = 0.2 }]", "[0].tau", "is missing");
+  refused("[{ g = 0.2, tau = 1, e = 2 }]", "[0].e", "unknown");
+  refused("[{ g = 0.6, tau = 1 }, { g = 0.4, tau = 2 }]", "", "add up to less than 1");
+  refused("0.2", "", "a list of { g = ..., k = ..., tau = ... }");
+}
+
 TEST_CASE("a network, which has no cells, is refused consistent masses") {
   const TemporaryFolder folder;
   const std::string file = folder.write("springs.csv", "0,1,1\n");
