@@ -119,7 +119,7 @@ void MovingSprings::set_step(const mechanics::StepTerms& terms) {
 
 std::optional<mechanics::NonlinearProblem::Solved> MovingSprings::solve_at(Vector& at, double load_factor) {
   if (!method_) return std::nullopt;
-  work_.linear_iterations += method_(*terms_, diagonal_, at);
+  work_.linear_iterations += method_(*terms_, diagonal_, pull_ ? &*pull_ : nullptr, at);
   const double left = terms_->is_substep ? 0 : size(NonlinearProblem::residual(at, load_factor), at).relative;
   if (!std::isfinite(left) || !at.allFinite())
     throw cases::SolveError(mechanics::no_finite_place);

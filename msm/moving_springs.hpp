@@ -35,6 +35,7 @@ class Pull {
   void draw_to(const Eigen::Vector3d& target) { target_ = target; }
 
   double stiffness() const { return stiffness_; }
+  const Eigen::Vector3d& target() const { return target_; }
   /// Displacement of the place, mm.
   template<class Real>
   Eigen::Vector3d place(const VectorIn<Real>& displacement) const;
@@ -163,7 +164,11 @@ class MovingSprings : public mechanics::DynamicProblem {
   void remember_pull(const Vector& at) {
     if (pull_) largest_pull_ = std::max(largest_pull_, pull_->size(at));
   }
-  void forget_pulls() { largest_pull_ = 0; }
+  /// The motion begins again: what has pulled, and what a method knows of earlier steps, are forgotten.
+  void begin_anew() {
+    largest_pull_ = 0;
+    method_ = fresh_method_;
+  }
   void supports_at(double time, Vector& displacement) const override {
     springs_.move_supports(displacement, time);
   }
@@ -173,10 +178,12 @@ class MovingSprings : public mechanics::DynamicProblem {
 
   /// Goes from `at`, whose supports are the step's, to where a method leaves the step's equation.
   /// @param inertia  lumped mass M + damping C, N/mm; 0 on constrained entries
+  /// @param pull     what holds the body; null: nothing
   /// @return iterations
-  using StepMethod = std::function<int(const mechanics::StepTerms& terms, const Vector& inertia, Vector& at)>;
+  using StepMethod = std::function<int(const mechanics::StepTerms& terms, const Vector& inertia,
+                                       const Pull* pull, Vector& at)>;
   /// Makes steps by a method of its own from now on, in place of Newton's.
-  void step_by(StepMethod method) { method_ = std::move(method); }
+  void step_by(StepMethod method) { method_ = fresh_method_ = std::move(method); }
   /// @throws cases::SolveError where the method has left finite places
   std::optional<Solved> solve_at(Vector& at, double load_factor) override;
 
@@ -234,7 +241,7 @@ class MovingSprings : public mechanics::DynamicProblem {
   mechanics::NonlinearProblem& springs_;
   Entries entries_;
   std::optional<mechanics::StepTerms> terms_;
-  StepMethod method_;
+  StepMethod method_, fresh_method_; ///< the latter as it was before the first step
   Vector diagonal_;
   std::optional<Pull> pull_;
   double largest_pull_ = 0;        ///< N

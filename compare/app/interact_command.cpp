@@ -2,6 +2,7 @@
 #include "cases/case/read_case.hpp"
 #include "cases/mesh/vtk_functions.hpp"
 #include "compare/app/commands.hpp"
+#include "compare/client/judge.hpp"
 #include "compare/interact/server.hpp"
 #include "compare/interact/simulation.hpp"
 #include "compare/provenance/machine.hpp"
@@ -24,6 +25,7 @@ namespace {
 struct InteractOptions {
   std::string file;
   std::vector<std::string> settings;
+  std::string method; ///< NAME[:ITERATIONS[:SUBSTEPS]]; empty: the case's own steps
   int port = 0, n_spheres = 271, n_threads = 1;
   double stiffness = 100; ///< N/m
   double seconds = 0;     ///< 0: until the page is closed
@@ -41,6 +43,7 @@ std::string page_of(const cases::Case& definition) {
 
 nlohmann::ordered_json summary_to_json(const SimulationSummary& summary, const ServerCounts& counts) {
   return {
+      {"method", summary.method},
       {"steps", summary.n_steps},
       {"pulled_steps", summary.n_pulled},
       {"failed_steps", summary.troubles.n_failures},
@@ -48,6 +51,7 @@ nlohmann::ordered_json summary_to_json(const SimulationSummary& summary, const S
       {"unfinished_steps", summary.troubles.n_unfinished},
       {"largest_residual", summary.troubles.largest_residual},
       {"step_ms", {{"median", summary.median_ms}, {"p99", summary.p99_ms}, {"largest", summary.largest_ms}}},
+      {"keeps_60_hz", nlohmann::ordered_json(summary.keeps_60_hz())},
       {"frames",
        {{"made", summary.n_frames},
         {"sent", counts.n_frames_sent},
@@ -59,9 +63,15 @@ nlohmann::ordered_json summary_to_json(const SimulationSummary& summary, const S
 }
 
 void print_summary(const SimulationSummary& summary, const ServerCounts& counts) {
-  print(std::cout,
-        "{} steps, {} of them pulled; a step took {:.3g} ms (median), {:.3g} ms (99 %), {:.3g} ms at most\n",
-        summary.n_steps, summary.n_pulled, summary.median_ms, summary.p99_ms, summary.largest_ms);
+  if (summary.n_steps == 0) print(std::cout, "{}: no step; the page was not opened\n", summary.method);
+  if (summary.n_steps > 0)
+    print(std::cout,
+          "{}: {} steps, {} of them pulled; a step took {:.3g} ms (median), {:.3g} ms (99 %), {:.3g} ms at "
+          "most: "
+          "{} 60 Hz; it left {:.2g} % of its forces at most\n",
+          summary.method, summary.n_steps, summary.n_pulled, summary.median_ms, summary.p99_ms,
+          summary.largest_ms, *summary.keeps_60_hz() ? "keeps" : "does not keep",
+          100 * summary.troubles.largest_residual);
   print(std::cout, "{} frames sent, {} dropped; {} requests refused, {} pages cut off\n",
         counts.n_frames_sent, counts.n_frames_dropped, counts.n_refused, counts.n_cut_off);
   if (summary.n_inverted_frames > 0)
@@ -90,7 +100,12 @@ std::string keep_recording(const InteractOptions& options, const cases::Case& de
 int run(const InteractOptions& options) {
   if (n_mpi_ranks() > 1) throw cases::InputError("interact runs on one rank");
   cases::check_has_vtk(); // for the drawn surface
-  const cases::Scene scene = make_scene_within_memory(cases::read_case(options.file, options.settings));
+  cases::Case definition = cases::read_case(options.file, options.settings);
+  if (!options.method.empty()) {
+    const std::vector<std::string> ignored = set_steps(definition, method_of(options.method, {}).real_time);
+    if (!ignored.empty()) print(std::cerr, "{} ignores {}\n", options.method, fmt::join(ignored, "; "));
+  }
+  const cases::Scene scene = make_scene_within_memory(definition);
   cases::refuse_network(scene.definition, "interact, which pulls at a surface",
                         "run --out --report shows its motion");
   check_memory(options.file, {estimate_springs(size_of(scene))}, memory_limit());
@@ -142,6 +157,9 @@ void add_interact_command(CLI::App& program, Action& chosen) {
       "a dynamic case's springs on a page of this machine, to turn and to pull in real time", run);
   command->add_option("case", options->file, "case file (TOML) with [dynamics]")->required();
   add_set_option(*command, options->settings, "override a key of the case: dynamics.step=0.02");
+  command->add_option(
+      "--method", options->method,
+      "NAME[:ITERATIONS[:SUBSTEPS]]: a method of [msm] real_time, in place of the case's steps");
   command->add_option("--port", options->port, "of 127.0.0.1; 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();

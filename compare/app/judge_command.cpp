@@ -16,6 +16,7 @@ namespace {
 
 struct JudgeOptions {
   std::vector<std::string> files, settings, clients, methods;
+  std::string replay; ///< a recording of interact; empty: none
   ClientBudget budget;
   int meshes = 0;
   std::string out;
@@ -42,12 +43,12 @@ int run(const JudgeOptions& options) {
   const std::vector<Client> clients = clients_of(options);
   if (clients.empty() && options.methods.empty())
     throw cases::InputError("judge: nothing is to be judged; give --client NAME=COMMAND or --method NAME");
-  std::vector<cases::StepMethod> methods;
-  for (const std::string& name : options.methods)
-    methods.push_back(*cases::value_of<cases::StepMethod>(name));
-  const std::vector<Question> questions =
+  std::vector<NamedMethod> methods;
+  for (const std::string& argument : options.methods) methods.push_back(method_of(argument, options.budget));
+  std::vector<Question> questions =
       read_questions(options.files, options.settings, {std::nullopt, options.meshes});
   check_memory(questions);
+  questions = with_recording(std::move(questions), options.replay);
   claim_folder(options.out);
   std::vector<JudgedCase> judged;
   for (const Question& question : questions) {
@@ -74,10 +75,10 @@ void add_judge_command(CLI::App& program, Action& chosen) {
       "--client", options->clients,
       "NAME=COMMAND: a program that speaks the protocol, started without a shell, confined; may "
       "be repeated");
-  command
-      ->add_option("--method", options->methods,
-                   "a method of [msm] real_time that steps our springs; may be repeated")
-      ->check(CLI::IsMember(cases::all_names<cases::StepMethod>()));
+  command->add_option(
+      "--method", options->methods,
+      "NAME[:ITERATIONS[:SUBSTEPS]]: a method of [msm] real_time that steps our springs; may be "
+      "repeated");
   ClientBudget& budget = options->budget;
   add_step_options(*command, budget);
   command->add_option("--end", budget.model_time, "time within which a body is to come to rest, s")
@@ -90,6 +91,7 @@ void add_judge_command(CLI::App& program, Action& chosen) {
       ->check(number_between(0.1, 1e4))
       ->capture_default_str();
   add_converge_option(*command, options->meshes);
+  add_replay_option(*command, options->replay);
   add_set_option(*command, options->settings, "KEY=VALUE of the cases");
   command->add_option("--out", options->out, "folder for judged.json and judged.csv");
   add_json_option(*command, options->json);

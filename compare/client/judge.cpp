@@ -1,10 +1,13 @@
 #include "compare/client/judge.hpp"
 
 #include "cases/case/error.hpp"
+#include "cases/case/input_file.hpp"
 #include "compare/provenance/machine.hpp"
+#include "compare/provenance/print.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/quote.hpp"
+#include "compare/write/write.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -73,6 +76,8 @@ JudgedRow row_of(std::string model, const Basis& basis, const Answer& answer, bo
   springs.msm = answer;
   const Comparison compared = compare_sides(basis.scene, basis.fem, springs);
   row.measures = compared.measures;
+  row.surface = compared.surface_motion;
+  if (answer.solution.trajectory) row.residual = answer.solution.trajectory->largest_residual;
   add_worst(row, &MeasuredValue::error_percent);
   if (basis.parts == Parts::told && row.worst) row.parts = parts_of(basis, compared, row.worst_at, is_solved);
   row.volume = volume_error(basis.fem.fem.solution, answer.solution);
@@ -160,6 +165,7 @@ JudgedRow client_row(const Basis& basis, const Client& client, const ClientBudge
   if (row.failure.empty() && !scene.definition.dynamics && found.is_at_rest)
     row.rests_after = found.model_time;
   row.milliseconds_a_step = found.milliseconds_a_step();
+  row.residual.reset(); // its own is not known
   return row;
 }
 
@@ -251,12 +257,39 @@ cases::RealTime real_time_in(cases::StepMethod method, const ClientBudget& budge
   return real_time;
 }
 
-JudgedCase judge_clients(const cases::Scene& scene, const std::vector<cases::StepMethod>& methods,
+NamedMethod method_of(const std::string& argument, const ClientBudget& budget) {
+  const auto refuse = [&](const std::string& reason) -> cases::InputError {
+    return cases::InputError(fmt::format("--method: {} {}; give NAME, NAME:ITERATIONS or "
+                                         "NAME:ITERATIONS:SUBSTEPS",
+                                         one_line(argument), reason));
+  };
+  std::vector<std::string> parts(1);
+  for (const char c : argument) c == ':' ? void(parts.emplace_back()) : parts.back().push_back(c);
+  const auto method = cases::value_of<cases::StepMethod>(parts.front());
+  if (!method)
+    throw refuse(fmt::format("names no method of [msm] real_time: {}",
+                             fmt::join(cases::all_names<cases::StepMethod>(), ", ")));
+  NamedMethod named{argument, real_time_in(*method, budget)};
+  const auto number = [&](const std::string& text, const char* what, int most) {
+    const auto value = cases::number_in<int>(text);
+    if (!value || *value < 1 || *value > most)
+      throw refuse(fmt::format("has \"{}\" {}, may have 1 to {}", one_line(text), what, most));
+    return *value;
+  };
+  if (parts.size() > 3) throw refuse("has more than two numbers");
+  if (parts.size() > 1) named.real_time.iterations = number(parts[1], "iterations", 100000);
+  if (parts.size() > 2) named.real_time.substeps = number(parts[2], "substeps", 1000);
+  return named;
+}
+
+JudgedCase judge_clients(const cases::Scene& scene, const std::vector<NamedMethod>& methods,
                          const std::vector<Client>& clients, const ClientBudget& budget, int meshes) {
   const Judge judge(scene, meshes);
   JudgedCase judged = judge.own(budget);
-  for (const cases::StepMethod method : methods)
-    judged.rows.push_back(judge.step(real_time_in(method, budget), budget));
+  for (const auto& [name, real_time] : methods) {
+    judged.rows.push_back(judge.step(real_time, budget));
+    judged.rows.back().model = name;
+  }
   for (const Client& client : clients) judged.rows.push_back(judge.ask(client, budget));
   return judged;
 }
@@ -271,10 +304,14 @@ Json row_to_json(const JudgedRow& row) {
             {"milliseconds_a_step", row.milliseconds_a_step},
             {"in_real_time", row.in_real_time},
             {"rests_after", row.rests_after},
+            {"residual_percent", row.residual ? Json(100 * *row.residual) : Json()},
             {"reason", text_or_null(row.failure)},
             {"command", text_or_null(row.command)}};
   if (!row.chosen.empty()) json["chosen"] = row.chosen;
   if (row.parts) json["parts"] = error_budget_to_json(*row.parts);
+  json["keeps_60_hz"] =
+      row.milliseconds_a_step ? Json(*row.milliseconds_a_step <= milliseconds_a_picture) : Json();
+  json["surface"] = row.surface ? surface_to_json(*row.surface) : Json();
   if (row.client) {
     json["client"] = {{"name", row.client->name},
                       {"version", row.client->version},
@@ -325,11 +362,14 @@ void write_judged_text(std::ostream& out, const JudgedCase& judged) {
                 fmt::format("{}: worst errors of the measures from the finite elements{}", judged.name,
                             judged.is_converged ? "' limit" : " on the same mesh (--converge: their limit)"),
                 2);
-  const Columns columns = columns_of("model status error~%=error_percent{:.2f} +-=error_uncertainty{:.2f} "
-                                     "at{:<} volume~%=volume_percent{:.2f} "
-                                     "rests~s=rests_after{:.2f} ms~a~step=milliseconds_a_step{:.2f} "
-                                     "real~time=in_real_time ignores=ignored");
-  write_table(out, columns, json_list(judged.rows, row_to_json));
+  const bool has_surface = std::any_of(judged.rows.begin(), judged.rows.end(),
+                                       [](const JudgedRow& row) { return row.surface.has_value(); });
+  const std::string error = "model status error~%=error_percent{:.2f} +-=error_uncertainty{:.2f} at{:<} ",
+                    of_motion = "surface~%=surface.error_percent{:.2f} left~%=residual_percent{:.2g} ",
+                    others = "volume~%=volume_percent{:.2f} rests~s=rests_after{:.2f} ignores=ignored ",
+                    pace = "ms~a~step=milliseconds_a_step{:.2f} 60~Hz=keeps_60_hz real~time=in_real_time";
+  write_table(out, columns_of(error + (has_surface ? of_motion : others) + pace),
+              json_list(judged.rows, row_to_json));
   for (const JudgedRow& row : judged.rows)
     for (const std::string& note : notes_of(row)) write_wrapped(out, "    " + note, 6);
 }
@@ -343,8 +383,9 @@ void write_judged_csv(std::ostream& out, const std::vector<JudgedCase>& cases) {
       rows.push_back(json);
     }
   write_csv(out,
-            columns_of("case model status error_percent error_uncertainty at volume_percent rests_after "
-                       "milliseconds_a_step in_real_time ignored reason command"),
+            columns_of("case model status error_percent error_uncertainty at volume_percent "
+                       "surface_percent=surface.error_percent residual_percent rests_after "
+                       "milliseconds_a_step keeps_60_hz in_real_time ignored reason command"),
             rows);
 }
 

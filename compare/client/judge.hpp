@@ -25,8 +25,10 @@ struct JudgedRow {
   std::string worst_at{};               ///< the measure
   std::optional<double> volume{};       ///< error of the body's volume, percent of the reference's
   std::optional<double> milliseconds_a_step{};
-  std::optional<bool> in_real_time{};  ///< its step takes at most the time that it advances
-  std::optional<double> rests_after{}; ///< s of model time; absent where it has not come to rest
+  std::optional<bool> in_real_time{}; ///< its step takes at most the time that it advances
+  std::optional<double> residual{};   ///< of a motion of springs: the largest that a step has left, relative
+  std::optional<SurfaceMotion> surface{}; ///< of a motion of a case with a [surface]
+  std::optional<double> rests_after{};    ///< s of model time; absent where it has not come to rest
   bool is_at_rest = true;
   std::vector<std::string> warnings{};
   std::vector<MeasuredValue> measures{};
@@ -75,8 +77,18 @@ cases::RealTime real_time_in(cases::StepMethod method, const ClientBudget& budge
 /// @return what of it they ignore
 std::vector<std::string> set_steps(cases::Case& definition, const cases::RealTime& real_time);
 
+/// A method as a command line has it.
+struct NamedMethod {
+  std::string name; ///< as it was typed
+  cases::RealTime real_time;
+};
+
+/// `NAME[:ITERATIONS[:SUBSTEPS]]` of the command line; what it leaves out is the budget's.
+/// @throws cases::InputError saying what is allowed
+NamedMethod method_of(const std::string& argument, const ClientBudget& budget);
+
 /// Own rows, and one for each method and client.
-JudgedCase judge_clients(const cases::Scene& scene, const std::vector<cases::StepMethod>& methods,
+JudgedCase judge_clients(const cases::Scene& scene, const std::vector<NamedMethod>& methods,
                          const std::vector<Client>& clients, const ClientBudget& budget, int meshes);
 
 Json row_to_json(const JudgedRow& row);

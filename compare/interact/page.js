@@ -116,16 +116,18 @@ function show_number(name, value) {
 }
 
 function show_numbers() {
+  const milliseconds = (number) => `${number < 100 ? number.toPrecision(3) : number.toFixed(0)} ms`;
+  const percent = 100 * frame.residual;
   const rows = [
-    [ "masses", description.masses ], [ "unknowns", description.unknowns ],
-    [ "triangles", description.triangles ], [ "drawn", view.drawn.triangles.length / 3 ],
+    [ "a step takes (median)", milliseconds(frame.median_ms) ], [ "99 % of steps below", milliseconds(frame.p99_ms) ],
+    [ "60 Hz", frame.p99_ms <= 1000 / 60 ? "kept" : "not kept" ],
+    [ "residual of the step", `${percent < 10 ? percent.toPrecision(2) : percent.toFixed(0)} %` ],
+    [ "pull", `${frame.force.toPrecision(3)} N` ], [ "time", `${frame.time.toFixed(2)} s` ],
     [ "time step", `${+ (1000 * description.step_s).toPrecision(4)} ms` ],
-    [ "a step takes (median)", `${frame.median_ms.toFixed(3)} ms` ],
-    [ "99 % of steps below", `${frame.p99_ms.toFixed(3)} ms` ],
     [ "steps a second", frame.steps_per_second.toFixed(1) ],
     [ "pictures a second", seen.rate > 0 ? seen.rate.toFixed(1) : "nothing moves" ],
-    [ "time", `${frame.time.toFixed(2)} s` ], [ "pull", `${frame.force.toPrecision(3)} N` ],
-    [ "step's forces left", `${(100 * frame.residual).toPrecision(2)} %` ]
+    [ "masses", description.masses ], [ "unknowns", description.unknowns ],
+    [ "triangles", description.triangles ], [ "drawn", view.drawn.triangles.length / 3 ]
   ];
   for (const [name, value] of rows) show_number(name, value);
   const problems = [];
@@ -140,6 +142,7 @@ socket.addEventListener("message", (event) => {
   if (typeof event.data === "string") {
     description = JSON.parse(event.data);
     document.querySelector("h1").textContent = description.name;
+    document.getElementById("method").textContent = description.method;
     state_line.textContent = "in control";
   } else if (!surface) {
     surface = new Surface(event.data, 0);

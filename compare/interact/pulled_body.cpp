@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "cases/scene/scene.hpp"
 #include "compare/measure/surfaces.hpp"
+#include "msm/real_time/real_time.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -16,7 +17,9 @@ using Eigen::Vector3d;
 namespace {
 
 /// Settings for pictures: fewer digits than a measure needs, and few halvings, so that a step ends in time.
-mechanics::IntegrationSettings steps_of(const cases::Scene& scene) {
+mechanics::IntegrationSettings steps_of(const cases::Scene& scene, const msm::SpringBody& springs) {
+  if (scene.definition.msm.real_time)
+    return msm::in_substeps(scene, springs, scene.definition.dynamics->step);
   mechanics::IntegrationSettings settings;
   settings.newton.tolerance = 1e-6;
   if (const auto enough = scene.definition.msm.iterations_per_step)
@@ -24,6 +27,8 @@ mechanics::IntegrationSettings steps_of(const cases::Scene& scene) {
   settings.max_halvings = 4;
   return settings;
 }
+
+constexpr int most_sizes = 100; ///< what moves further has no picture
 
 } // namespace
 
@@ -37,13 +42,10 @@ PulledBody::PulledBody(const cases::Scene& scene, const PullSettings& settings)
                                         "\"bdf2\": a pointer that jumps from step to "
                                         "step drives on what a scheme does not damp",
                                         scene.definition.file, cases::name_of(scheme)));
-  if (scene.definition.msm.real_time)
-    throw cases::InputError(scene.definition.msm.where,
-                            "real_time must be left out of interact: its methods know no pull; "
-                            "iterations_per_step bounds a step");
   const msm::DesignResult design = design_for(scene);
   const msm::ModelOptions options{msm::Path::automatic, settings.n_threads, {}, {}};
   body_ = std::make_unique<msm::MovingBody>(scene, design.springs, options);
+  steps_ = steps_of(scene, design.springs);
   surface_ = embedded_surface(scene);
   // Were every vertex a centre, the spheres would have no radius and cover nothing between the vertices.
   const std::size_t most_spheres = std::max<std::size_t>(1, surface_.rest.vertices.size() / 2);
@@ -59,11 +61,10 @@ PulledBody::PulledBody(const cases::Scene& scene, const PullSettings& settings)
 
 void PulledBody::restart() {
   release();
-  body_->motion().forget_pulls();
+  body_->motion().begin_anew();
   const mechanics::Vector at_rest = mechanics::Vector::Zero(start_.size());
   motion_ = std::make_unique<mechanics::TimeIntegrator>(body_->motion(), scene_.definition.dynamics->scheme,
-                                                        mechanics::Motion{0, start_, at_rest, {}},
-                                                        steps_of(scene_));
+                                                        mechanics::Motion{0, start_, at_rest, {}}, steps_);
   n_steps_ = 0;
   is_displacement_of_now_ = false;
 }
@@ -101,6 +102,9 @@ void PulledBody::step() {
   try {
     const int n_before = motion_->n_unfinished();
     motion_->advance(static_cast<double>(n_steps_ + 1) * scene_.definition.dynamics->step);
+    if (!(body_->motion().largest(motion_->now().displacement) <= most_sizes * size_))
+      throw cases::SolveError(
+          fmt::format("a node has moved by more than {} times the body's size", most_sizes));
     troubles_.n_unfinished += motion_->n_unfinished() > n_before;
     troubles_.largest_residual = std::max(troubles_.largest_residual, motion_->largest_residual());
     ++n_steps_;
@@ -120,6 +124,22 @@ const msm::Points& PulledBody::displacement() {
   if (!std::exchange(is_displacement_of_now_, true))
     displacement_ = body_->to_points(motion_->now().displacement);
   return displacement_;
+}
+
+std::string PulledBody::method_text() const {
+  const auto counted = [](int n, const std::string& what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  const cases::Msm& given = scene_.definition.msm;
+  if (!given.real_time)
+    return given.iterations_per_step
+               ? fmt::format("Newton's method, {} at most", counted(*given.iterations_per_step, "iteration"))
+               : fmt::format("Newton's method, to {:g}", steps_.newton.tolerance);
+  const std::string name = cases::name_of(given.real_time->method),
+                    substeps = counted(steps_.substeps, "substep");
+  return given.real_time->method == cases::StepMethod::symplectic_euler
+             ? name + ", " + substeps
+             : fmt::format("{}, {}, {}", name, counted(given.real_time->iterations, "iteration"), substeps);
 }
 
 int PulledBody::n_inverted() {

@@ -26,8 +26,8 @@ struct StepTroubles {
 
 /// A dynamic case's springs, moved step by step while a spring pulls on a spherical part of their surface.
 /// The pulling spring is solved implicitly with the body, so any stiffness is stable. Its force in a step is
-/// known after the step; applied as a load of that step it gives the same solution. A recording of forces can
-/// therefore be replayed in any model.
+/// known after the step; applied as a load of that step it gives the same solution, where a step is solved. A
+/// recording of forces can therefore be replayed in any model, and by any method.
 class PulledBody {
  public:
   /// @throws InputError when the case has no [dynamics], or its springs cannot be designed or start
@@ -48,23 +48,24 @@ class PulledBody {
 
   const mechanics::EmbeddedSurface& surface() const { return surface_; }
   const mechanics::Spheres& spheres() const { return spheres_; }
-  std::optional<int> held() const { return held_; } ///< a vertex of the surface
-  const Eigen::Vector3d& force() const {
-    return force_;
-  }                                                   ///< N, of the spring in the equation of the last step
-  double time() const { return motion_->now().time; } ///< s, since the last restart
-  long n_steps() const { return n_steps_; }           ///< since the last restart
+  std::optional<int> held() const { return held_; }       ///< a vertex of the surface
+  const Eigen::Vector3d& force() const { return force_; } ///< N, of the spring at the end of the last step
+  double time() const { return motion_->now().time; }     ///< s, since the last restart
+  long n_steps() const { return n_steps_; }               ///< since the last restart
   const StepTroubles& troubles() const { return troubles_; }
   /// What the last step was left with, relative to the forces of the motion.
   double residual() const { return motion_->work().residual; }
   const msm::Points& displacement(); ///< mm, of all nodes, now
   int n_inverted();                  ///< cells, now
+  /// How a step is made: "xpbd, 10 iterations, 1 substep".
+  std::string method_text() const;
   std::size_t n_unknowns() { return body_->motion().n_unknowns(); }
 
  private:
   const cases::Scene& scene_;
   PullSettings settings_;
   std::unique_ptr<msm::MovingBody> body_;
+  mechanics::IntegrationSettings steps_;
   mechanics::EmbeddedSurface surface_;
   mechanics::Spheres spheres_;
   double size_ = 0; ///< mm: diagonal of the body's box

@@ -150,6 +150,7 @@ Simulation::Simulation(const cases::Scene& scene, const PullSettings& settings,
                                         {"masses", scene_.mesh.nodes.size()},
                                         {"cells", scene_.mesh.cells.size()},
                                         {"unknowns", body_.n_unknowns()},
+                                        {"method", body_.method_text()},
                                         {"step_s", scene_.definition.dynamics->step},
                                         {"triangles", surface.rest.triangles.size()},
                                         {"spheres", body_.spheres().vertices.size()},
@@ -307,6 +308,7 @@ SimulationSummary Simulation::summary() const {
   const std::vector<double> times(step_ms_.begin(), step_ms_.end());
   summary.median_ms = value_below(times, 0.5);
   summary.p99_ms = value_below(times, 0.99);
+  summary.method = body_.method_text();
   summary.troubles = body_.troubles();
   return summary;
 }

@@ -45,10 +45,10 @@ class View {
     this.scene = new THREE.Scene();
     this.spring = new THREE.Line(new THREE.BufferGeometry().setAttribute(
                                      "position", new THREE.BufferAttribute(new Float32Array(6), 3)),
-                                 new THREE.LineBasicMaterial({color: 0x00639c}));
+                                 new THREE.LineBasicMaterial());
     this.spring.frustumCulled = this.spring.visible = false;
     this.handle = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 16, 12),
-                                 new THREE.MeshBasicMaterial({color: 0x00639c}));
+                                 new THREE.MeshBasicMaterial());
     this.handle.visible = false;
     this.camera = new THREE.PerspectiveCamera(35, 1, 1, 1000);
     this.camera.up.set(0, 0, 1);
@@ -66,6 +66,8 @@ class View {
     this.controls.addEventListener("change", () => { this.is_turned = true; });
     const take_paper = () => {
       this.renderer.setClearColor(new THREE.Color(getComputedStyle(document.body).backgroundColor));
+      const accent = getComputedStyle(document.documentElement).getPropertyValue("--accent").trim();
+      for (const drawn of [this.spring, this.handle]) drawn.material.color.set(accent);
       this.is_turned = true;
     };
     take_paper();

@@ -53,6 +53,8 @@ struct Trial {
   bool has_moduli() const { return misfit && *misfit <= msm::told_moduli_misfit; }
 };
 
+constexpr double milliseconds_a_picture = 1e3 / 60; ///< a screen of 60 Hz has a step for each of its pictures
+
 /// Mean over the steps of a motion, without the setup; nothing for what did not move to the end.
 std::optional<double> milliseconds_a_step(const Answer& answer);
 

@@ -84,9 +84,8 @@ std::string others_text(const std::vector<const Trial*>& all, const Trial& own) 
                      fmt::join(names, ", "), fmt::join(reasons, ", and "));
 }
 
-/// "8.1 ms a step: keeps 60 Hz": a screen of 60 Hz has a step for each of its pictures.
+/// "8.1 ms a step: keeps 60 Hz".
 std::string pace_text(double milliseconds_a_step) {
-  constexpr double milliseconds_a_picture = 1e3 / 60;
   return fmt::format("{:.2g} ms a step: {} 60 Hz", milliseconds_a_step,
                      milliseconds_a_step <= milliseconds_a_picture ? "keeps" : "does not keep");
 }

@@ -68,9 +68,12 @@ void write_landmarks_csv(std::ostream& out, const Comparison& comparison);
 /// motion.
 void write_motion_csv(std::ostream& out, const Comparison& comparison);
 
-/// The same, and the notes: {"notes": [...], "time": [...], "measures": [{"name", "unit", "fem": [...],
-/// "msm": [...]}]}, and of a case with a [surface] how far the models' are apart: "surface": {"time", "fem",
-/// "difference", "largest_difference", "error_percent"}; null for a case without motion.
+/// {"time", "fem", "msm", "difference", "largest_difference", "error_percent"}
+Json surface_to_json(const SurfaceMotion& surface);
+
+/// The same as write_motion_csv(), and the notes: {"notes": [...], "time": [...], "measures": [{"name",
+/// "unit", "fem": [...], "msm": [...]}]}, and of a case with a [surface] how far the models' are apart:
+/// "surface", as surface_to_json() has it; null for a case without motion.
 Json motion_to_json(const Comparison& comparison);
 
 /// What steps make of each model's slowest vibration: of the implicit Euler method always, of another scheme

@@ -119,6 +119,12 @@ void write_motion_csv(std::ostream& out, const Comparison& comparison) {
               entry_at(fem, step), entry_at(msm, step));
 }
 
+Json surface_to_json(const SurfaceMotion& surface) {
+  Json document = SPRINGPROOF_MEMBERS(surface, time, fem, msm, difference);
+  document.update({{"largest_difference", surface.largest}, {"error_percent", surface.error_percent}});
+  return document;
+}
+
 Json motion_to_json(const Comparison& comparison) {
   const Trajectory* motion = any_trajectory(comparison);
   if (!motion) return nullptr;
@@ -127,11 +133,7 @@ Json motion_to_json(const Comparison& comparison) {
     measures.push_back(
         {{"name", measure.name}, {"unit", unit_of_values(measure)}, {"fem", fem}, {"msm", msm}});
   Json document{{"notes", notes_on_motion(comparison)}, {"time", motion->time}, {"measures", measures}};
-  if (const auto& surface = comparison.surface_motion) {
-    document["surface"] = SPRINGPROOF_MEMBERS(*surface, time, fem, msm, difference);
-    document["surface"].update(
-        {{"largest_difference", surface->largest}, {"error_percent", surface->error_percent}});
-  }
+  if (const auto& surface = comparison.surface_motion) document["surface"] = surface_to_json(*surface);
   return document;
 }
 

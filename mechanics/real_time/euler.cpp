@@ -1,6 +1,7 @@
 #include "mechanics/real_time/euler.hpp"
 
-#include <Eigen/IterativeLinearSolvers>
+#include "mechanics/grid/krylov.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -22,6 +23,10 @@ void visit_free(const FreeTangent& tangent, const Action& action) {
 
 Points residual_of(const StepEquation& step, const ForcesAt& forces, const Points& at) {
   Points residual = forces(at);
+  if (step.pull) {
+    const Eigen::Vector3d force = step.pull->force(at);
+    for (const auto& [point, weight] : step.pull->weights) residual[point] += weight * force;
+  }
   for (std::size_t p = 0; p < residual.size(); ++p)
     residual[p] = (step.inertia[p].array() > 0).select(residual[p] + step.rest_of(p, at[p]), 0);
   return residual;
@@ -32,6 +37,12 @@ MakeStep make_symplectic_euler(ForcesAt forces) {
     const Points residual = residual_of(step, forces, step.origin);
     for (std::size_t p = 0; p < at.size(); ++p)
       at[p] = (step.inertia[p].array() > 0).select(step.origin[p] + step.moved_by(p, residual[p]), at[p]);
+    if (step.pull) { // explicitly, a stiff one would not be stable
+      Eigen::Vector3d force = step.pull->force(step.origin);
+      project_pull(
+          *step.pull, [&](std::size_t p, const Eigen::Vector3d& by) { return step.moved_by(p, by); }, force,
+          at);
+    }
     return 1;
   };
 }
@@ -50,12 +61,18 @@ MakeStep make_implicit_euler(ForcesAt forces, FreeTangent tangent, int iteration
       if (!(right_side.norm() > 1e-13 * first)) break;
       Matrix matrix = tangent.at(at);
       matrix.diagonal() += inertia;
-      Eigen::ConjugateGradient<Matrix, Eigen::Lower> solver(matrix);
-      solver.setMaxIterations(left);
-      solver.setTolerance(1e-2);
-      const Eigen::VectorXd moved = solver.solve(right_side);
-      visit_free(tangent, [&](std::size_t p, int c, int n) { at[p][c] += moved[n]; });
-      left -= std::max(1, static_cast<int>(solver.iterations()));
+      const auto solved = grid::conjugate_gradients(
+          [&](const Eigen::VectorXd& in, Eigen::VectorXd& out) {
+            out = matrix.selfadjointView<Eigen::Lower>() * in;
+            if (step.pull) step.pull->add_product(tangent.number, in, out);
+          },
+          [diagonal = Eigen::VectorXd(matrix.diagonal())](const Eigen::VectorXd& in, Eigen::VectorXd& out) {
+            out = in.cwiseQuotient(diagonal);
+          },
+          right_side, 1e-2 * right_side.norm(), left,
+          [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return a.dot(b); }, 1);
+      visit_free(tangent, [&](std::size_t p, int c, int n) { at[p][c] += solved.solution[n]; });
+      left -= std::max(1, solved.iterations);
     }
     return iterations - left;
   };

@@ -1,7 +1,10 @@
 #pragma once
 
+#include "mechanics/real_time/pull_of_points.hpp"
+
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <vector>
 
 /// How simulators make a step in time of points with lumped masses, whatever acts between them.
@@ -9,11 +12,12 @@ namespace springproof::mechanics {
 
 using Points = std::vector<Eigen::Vector3d>; ///< one per point: mm or N
 
-/// The equation of a step,  D (u - origin) = force + f_int(u),  by points.
+/// The equation of a step,  D (u - origin) = force + f_int(u) + pull(u),  by points.
 struct StepEquation {
   Points inertia; ///< D, N/mm: M/h² + C/h, lumped; 0 on constrained components
   Points origin;  ///< mm: displacement when the step begins
   Points force;   ///< N: loads, and the inertia of the velocity
+  std::optional<PullOfPoints> pull{};
 
   /// D^-1 of a point's vector, 0 on constrained components.
   Eigen::Vector3d moved_by(std::size_t point, const Eigen::Vector3d& by) const {
@@ -25,7 +29,7 @@ struct StepEquation {
     for (std::size_t p = 0; p < at.size(); ++p)
       at[p] = (inertia[p].array() > 0).select(origin[p] + moved_by(p, force[p]), at[p]);
   }
-  /// What is left of the equation, N, without internal forces.
+  /// What is left of the equation, N, without internal forces and pull.
   Eigen::Vector3d rest_of(std::size_t point, const Eigen::Vector3d& displacement) const {
     return (inertia[point].array() > 0)
         .select(force[point] - inertia[point].cwiseProduct(displacement - origin[point]), 0);

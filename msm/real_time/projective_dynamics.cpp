@@ -1,4 +1,5 @@
 #include "cases/case/error.hpp"
+#include "msm/moving_springs.hpp"
 #include "msm/real_time/step_method.hpp"
 
 #include <Eigen/SparseCholesky>
@@ -57,6 +58,7 @@ class ProjectiveDynamics {
   /// here.
   int operator()(const StepEquation& step, Points& at) {
     if (!is_factor_of(step)) factorise(step);
+    if (step.pull) hold(*step.pull);
     step.go_freely(at);
     Vector right_side(n_free_), moved = Vector::Zero(n_free_); // by the iteration before
     double omega = 1;
@@ -64,7 +66,9 @@ class ProjectiveDynamics {
       const Points residual = residual_of(step, lattice_, at);
       visit_free([&](std::size_t p, int c, int number) { right_side[number] = residual[p][c]; });
       if (n > 0) omega = 4 / (4 - radius_ * radius_ * (n == 1 ? 2 : omega));
-      moved = omega * factor_->solve(right_side) + (omega - 1) * moved;
+      Vector plain = factor_->solve(right_side);
+      if (step.pull) with_pull_.correct(*pull_, plain);
+      moved = omega * plain + (omega - 1) * moved;
       visit_free([&](std::size_t p, int c, int number) { at[p][c] += moved[number]; });
     }
     return iterations_;
@@ -78,6 +82,9 @@ class ProjectiveDynamics {
   Points factorised_;                                    ///< the inertia of the factor
   std::vector<std::array<int, 3>> number_;               ///< each point's free components'; -1: constrained
   std::shared_ptr<Eigen::SimplicialLLT<Matrix>> factor_; ///< shared: a function can be copied
+  std::optional<mechanics::PullOfPoints> held_;          ///< what with_pull_ is of
+  std::optional<Pull> pull_;
+  WithPull<double> with_pull_;
 
   template<class Action>
   void visit_free(const Action& action) const {
@@ -92,8 +99,21 @@ class ProjectiveDynamics {
                       [](const auto& now, const auto& then) { return now.isApprox(then, 1e-9); });
   }
 
+  /// The pull is a part of the global step.
+  void hold(const mechanics::PullOfPoints& pull) {
+    if (pull.is_at_place_of(held_)) return;
+    held_ = pull;
+    Pull::Entries entries;
+    for (const auto& [point, weight] : pull.weights)
+      for (std::size_t c = 0; c < 3; ++c)
+        if (const int at = number_[point][c]; at >= 0) entries[c].push_back({at, weight, true});
+    pull_.emplace(std::move(entries), pull.stiffness);
+    with_pull_.prepare(*pull_, n_free_, [&](const Vector& in, Vector& out) { out = factor_->solve(in); });
+  }
+
   void factorise(const StepEquation& step) {
     factorised_ = step.inertia;
+    held_.reset();
     number_.clear();
     n_free_ = 0;
     for (const Eigen::Vector3d& d : step.inertia) {

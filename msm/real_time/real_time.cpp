@@ -5,6 +5,7 @@
 #include "msm/real_time/step_method.hpp"
 #include "msm/tangent.hpp"
 
+#include <map>
 #include <memory>
 
 namespace springproof::msm {
@@ -67,18 +68,28 @@ Eigen::VectorXi components_of(const Problem& problem) {
   return to_vector(problem, number).cast<int>();
 }
 
+/// @param dofs  components_of() its problem
+mechanics::PullOfPoints pull_of_points(const Pull& pull, const Eigen::VectorXi& dofs) {
+  std::map<std::size_t, double> weight_of; // a point's components have the same, those that are entries
+  for (const auto& component : pull.entries())
+    for (const Pull::Entry& entry : component) weight_of[cases::index(dofs[entry.at] / 3)] = entry.weight;
+  return {{weight_of.begin(), weight_of.end()}, pull.stiffness(), pull.target()};
+}
+
 } // namespace
 
 MovingSprings::StepMethod step_method(const cases::RealTime& real_time, const Problem& problem,
                                       int n_threads) {
   const Points zero(problem.lattice.rest.size(), Eigen::Vector3d::Zero());
-  return [components = components_of(problem), step = StepEquation{zero, zero, zero}, points = zero,
-          make = make_step(real_time, problem, n_threads)](const mechanics::StepTerms& terms,
-                                                           const Vector& inertia, Vector& at) mutable {
+  return [components = components_of(problem), step = StepEquation{zero, zero, zero, {}}, points = zero,
+          make = make_step(real_time, problem, n_threads)](
+             const mechanics::StepTerms& terms, const Vector& inertia, const Pull* pull, Vector& at) mutable {
     flat(step.inertia)(components) = inertia;
     flat(step.origin)(components) = terms.origin;
     flat(step.force)(components) = terms.force;
     flat(points)(components) = at;
+    step.pull.reset();
+    if (pull) step.pull = pull_of_points(*pull, components);
     const int iterations = make(step, points);
     at = flat(points)(components);
     return iterations;

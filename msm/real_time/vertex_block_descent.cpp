@@ -23,7 +23,8 @@ Positions<2> forces_of(const Link& link, const Positions<2>& x) {
 class VertexBlockDescent {
  public:
   VertexBlockDescent(const Lattice& lattice, int iterations, int n_threads)
-      : lattice_(lattice), iterations_(iterations), n_threads_(n_threads), terms_(lattice.rest.size()) {
+      : lattice_(lattice), iterations_(iterations), n_threads_(n_threads), terms_(lattice.rest.size()),
+        pulled_(lattice.rest.size()) {
     const auto nodes = nodes_of_terms(lattice);
     for (std::size_t term = 0; term < nodes.size(); ++term)
       for (const int node : nodes[term]) terms_[cases::index(node)].push_back(static_cast<int>(term));
@@ -32,10 +33,19 @@ class VertexBlockDescent {
 
   int operator()(const StepEquation& step, Points& at) {
     begin(step, at);
-    for (int n = 0; n < iterations_; ++n)
+    std::fill(pulled_.begin(), pulled_.end(), 0.);
+    if (step.pull)
+      for (const auto& [node, weight] : step.pull->weights) pulled_[node] = weight;
+    const auto move = [&](std::size_t node) {
+      if ((step.inertia[node].array() > 0).any()) at[node] += newton_step(step, node, at);
+    };
+    for (int n = 0; n < iterations_; ++n) {
       mechanics::for_each_item(colours_, n_threads_, [&](std::size_t node) {
-        if ((step.inertia[node].array() > 0).any()) at[node] += newton_step(step, node, at);
+        if (pulled_[node] == 0) move(node);
       });
+      if (step.pull) // joins its nodes: no two of them are of one colour
+        for (const auto& [node, weight] : step.pull->weights) move(node);
+    }
     return iterations_;
   }
 
@@ -44,7 +54,8 @@ class VertexBlockDescent {
   int iterations_, n_threads_;
   std::vector<std::vector<int>> terms_; ///< those at each node
   mechanics::Colours colours_;
-  Points last_, last_moved_; ///< mm: where the step before began, and by how much it moved; empty: none yet
+  std::vector<double> pulled_; ///< each node's weight in what pulls
+  Points last_, last_moved_;   ///< mm: where the step before began, and by how much it moved; empty: none yet
 
   /// Starts with the velocity, and with as much of the outer forces as have accelerated the body before:
   /// supports that carry them leave none, and a body at rest stays where it is.
@@ -65,6 +76,12 @@ class VertexBlockDescent {
   Eigen::Vector3d newton_step(const StepEquation& step, std::size_t node, const Points& at) const {
     Eigen::Vector3d residual = step.rest_of(node, at[node]);
     Eigen::Matrix3d stiffness = step.inertia[node].asDiagonal();
+    if (pulled_[node] > 0) {
+      residual += pulled_[node] * step.pull->force(at);
+      // Not weight² times: a node alone would go the whole way of the mean. With weights of sum 1 this bounds
+      // the pull's tangent, k w w^T.
+      stiffness.diagonal().array() += step.pull->stiffness * pulled_[node];
+    }
     for (const int number : terms_[node])
       with_term(lattice_, cases::index(number), [&](const auto& term) {
         const auto nodes = nodes_of(term);

@@ -88,6 +88,7 @@ class Xpbd {
 
   int operator()(const StepEquation& step, Points& at) {
     begin(step, at);
+    Eigen::Vector3d pulls = Eigen::Vector3d::Zero(); // N
     for (int n = 0; n < iterations_; ++n) {
       std::ptrdiff_t begin = 0;
       for (const std::ptrdiff_t end : ends_of_colours_) {
@@ -99,6 +100,7 @@ class Xpbd {
       mechanics::for_each_item(colours_, n_threads_, [&](std::size_t number) {
         with_term(lattice_, others_[number], [&](const auto& term) { project(term, multipliers_[number]); });
       });
+      if (step.pull) project(*step.pull, pulls, at);
     }
     for (std::size_t p = 0; p < at.size(); ++p) at[p] = x_[p].head<3>() - lattice_.rest[p];
     return iterations_;
@@ -159,6 +161,18 @@ class Xpbd {
         });
   }
   void project(const Tetrahedron&, double&) {} // refused above
+
+  /// @param displacement  room, of which the pulled points' are set
+  void project(const mechanics::PullOfPoints& pull, Eigen::Vector3d& force, Points& displacement) {
+    for (const auto& [p, weight] : pull.weights) displacement[p] = x_[p].head<3>() - lattice_.rest[p];
+    mechanics::project_pull(
+        pull,
+        [&](std::size_t p, const Eigen::Vector3d& by) -> Eigen::Vector3d {
+          return mobility_[p].head<3>().cwiseProduct(by);
+        },
+        force, displacement);
+    for (const auto& [p, weight] : pull.weights) x_[p].head<3>() = lattice_.rest[p] + displacement[p];
+  }
 
   template<std::size_t n>
   Positions<n> places_of(const std::array<int, n>& nodes) const {

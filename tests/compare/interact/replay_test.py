@@ -51,6 +51,28 @@ def check_surface(motion):
     assert any(note.startswith("surface: ") for note in motion["notes"]), motion["notes"]
 
 
+def check_methods(springproof, folder, motion):
+    """`judge` has a row for every method under the same pulls, with the surface's error over time; what fails is a row with its reason."""
+    methods = ("implicit_euler:1000", "xpbd:1:8", "symplectic_euler", "symplectic_euler:1:1")
+    words = [springproof, "judge", "case.toml", "--replay", "pulls.csv", *(word for method in methods for word in ("--method", method))]
+    done = subprocess.run([*words, "--json"], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 1, (done.returncode, done.stderr)  # one has failed
+    rows = {row["model"]: row for row in json.loads(done.stdout)["cases"][0]["rows"]}
+    assert list(rows) == ["finite elements", "springs", *methods], list(rows)
+    own = rows["springs"]["surface"]
+    assert own == motion["surface"], "judge's springs are not run's"
+    solved = rows["implicit_euler:1000"]["surface"]
+    assert math.isclose(solved["error_percent"], own["error_percent"], rel_tol=1e-4), (solved["error_percent"], own["error_percent"])
+    assert rows["implicit_euler:1000"]["residual_percent"] < 1e-2 < rows["xpbd:1:8"]["residual_percent"], rows
+    assert not math.isclose(rows["xpbd:1:8"]["surface"]["error_percent"], own["error_percent"], rel_tol=1e-3), rows["xpbd:1:8"]
+    for method in methods[:3]:
+        assert rows[method]["status"] == "answered" and rows[method]["keeps_60_hz"] == (rows[method]["milliseconds_a_step"] <= 1000 / 60), rows[method]
+    failed = rows["symplectic_euler:1:1"]
+    assert failed["status"] == "failed" and "steps in real time" in failed["reason"] and failed["surface"] is None, failed
+    text = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False).stdout
+    assert "surface %" in text and "left %" in text and "60 Hz" in text and max(map(len, text.splitlines())) <= 100, text
+
+
 def main():
     springproof, source, folder = (Path(word).resolve() for word in sys.argv[1:])
     folder.mkdir(parents=True, exist_ok=True)
@@ -62,6 +84,7 @@ def main():
     for name in written:
         assert (folder / "first" / name).read_bytes() == (folder / "second" / name).read_bytes(), name
     check_surface(motions[0])
+    check_methods(springproof, folder, motions[0])
     print(f"{len(written)} files of two replays are the same; the surfaces are {motions[0]['surface']['error_percent']:.3g} % apart")
 
 
