@@ -34,21 +34,41 @@ const ElementFacts& facts_of(Element element) {
   return *std::find_if(table.begin(), table.end(), [=](const auto& row) { return row.element == element; });
 }
 
-std::vector<Element> elements_of(Formulation formulation, bool is_tetrahedron) {
+namespace {
+
+/// Whether a method of steps takes an element. A law as a function of places has no unknowns of cells; of the
+/// corotational method cells have a constant matrix, in which the mean volume is condensed.
+bool takes(ElementMethod method, const ElementFacts& facts) {
+#pragma GCC diagnostic error "-Wswitch" // a method that is forgotten here must not compile
+  switch (method) {
+  case ElementMethod::corotational:
+    return facts.element == E::q1_bbar || facts.element == E::q1 || facts.element == E::p1;
+  case ElementMethod::total_lagrangian_explicit:
+    return facts.element == E::q1 || facts.element == E::p1;
+  case ElementMethod::xpbd:
+    break;
+  }
+  return facts.element == E::p1;
+}
+
+} // namespace
+
+std::vector<Element> elements_of(const Fem& fem, bool is_tetrahedron) {
   std::vector<Element> found;
   for (const ElementFacts& row : table)
     if (row.is_tetrahedron == is_tetrahedron &&
-        !(row.has_pressure && formulation == Formulation::saint_venant_kirchhoff))
+        !(row.has_pressure && fem.formulation == Formulation::saint_venant_kirchhoff) &&
+        (!fem.real_time || takes(fem.real_time->method, row)))
       found.push_back(row.element);
   return found;
 }
 
-Element default_element(Formulation formulation, const std::vector<Material>& materials,
-                        bool is_tetrahedron) {
-  const bool has_pressure = formulation != Formulation::saint_venant_kirchhoff;
+Element default_element(const Fem& fem, const std::vector<Material>& materials, bool is_tetrahedron) {
+  const bool has_pressure = fem.formulation != Formulation::saint_venant_kirchhoff;
+  if (fem.real_time) return elements_of(fem, is_tetrahedron).front();
   if (!is_tetrahedron) {
-    if (formulation == Formulation::hyperelastic) return Element::q1_p0; // the name of a law in stretches
-    return elements_of(formulation, false).front();
+    if (fem.formulation == Formulation::hyperelastic) return Element::q1_p0; // the name of a law in stretches
+    return elements_of(fem, false).front();
   }
   const bool is_stiff = std::any_of(materials.begin(), materials.end(), [](const Material& material) {
     return is_isotropic(material) && poissons_ratio_of(material) >= nearly_incompressible;
@@ -89,13 +109,21 @@ void settle_element(Case& definition, bool is_tetrahedron) {
         "element is \"{}\", must be \"{}\" or one without a pressure beside stiffness_damping: dampers are "
         "of single cells, and its pressure is of the whole body",
         name_of(fem.element), name_of(Element::p2_p0));
-  if (facts_of(fem.element).is_tetrahedron != is_tetrahedron && fem.has_auto_element)
-    fem.element = default_element(fem.formulation, materials_of(definition), is_tetrahedron);
+  if (facts_of(fem.element).is_tetrahedron != is_tetrahedron && fem.has_auto_element &&
+      !elements_of(fem, is_tetrahedron).empty())
+    fem.element = default_element(fem, materials_of(definition), is_tetrahedron);
   check_memory(definition);
   if (facts_of(fem.element).is_tetrahedron == is_tetrahedron) return;
+  const char* const cells = is_tetrahedron ? "tetrahedra" : "hexahedra";
+  const std::vector<Element> allowed = elements_of(fem, is_tetrahedron);
+  if (allowed.empty())
+    refuse(fem.where,
+           "real_time.method is \"{}\", must be \"{}\" | \"{}\": the body is a mesh of {}, and its "
+           "constraints are of tetrahedra, which would be another mesh",
+           name_of(fem.real_time->method), name_of(ElementMethod::corotational),
+           name_of(ElementMethod::total_lagrangian_explicit), cells);
   refuse(fem.where, "element is \"{}\", must be {}: the body is a mesh of {}", name_of(fem.element),
-         alternatives(elements_of(fem.formulation, is_tetrahedron)),
-         is_tetrahedron ? "tetrahedra" : "hexahedra");
+         alternatives(allowed), cells);
 }
 
 bool needs_pressure(const Material& material) {

@@ -16,14 +16,15 @@ struct ElementFacts {
 
 const ElementFacts& facts_of(Element element);
 
-/// The elements of a shape that a formulation has, its default first. The pressure of a mixed or averaged
+/// The elements of a shape that a formulation has, and that a method of real_time takes, the default first.
+/// The pressure of a mixed or averaged
 /// element acts on the volume ratio J; Saint Venant-Kirchhoff's law S = lambda tr(E) I + 2 mu E has no such
 /// part, so there is nothing to average in it.
-std::vector<Element> elements_of(Formulation formulation, bool is_tetrahedron);
+std::vector<Element> elements_of(const Fem& fem, bool is_tetrahedron);
 
 /// The element of a case that names none.
 /// @param materials  with nearly incompressible ones among them tetrahedra have a pressure
-Element default_element(Formulation formulation, const std::vector<Material>& materials, bool is_tetrahedron);
+Element default_element(const Fem& fem, const std::vector<Material>& materials, bool is_tetrahedron);
 
 /// Gives a case that names no element the default of its mesh's shape.
 /// @throws InputError if it names an element of the other shape, or one that its dampers do not go with

@@ -5,6 +5,7 @@
 #include "cases/case/error.hpp"
 #include "cases/case/material.hpp"
 #include "cases/case/spring_law.hpp"
+#include "cases/case/steps_by.hpp"
 
 #include <array>
 #include <optional>
@@ -22,6 +23,24 @@ SPRINGPROOF_ENUMERATION(Doubt,
                         unstable  ///< its tangent has negative eigenvalues
 )
 
+/// How simulators make a step of springs: by an amount of work that is given, whatever it leaves. All but the
+/// last go towards implicit Euler's step.
+SPRINGPROOF_ENUMERATION(
+    StepMethod,
+    xpbd,                 ///< projections on one constraint after the other (Macklin et al. 2016)
+    projective_dynamics,  ///< a factorised constant matrix for all of them (Bouaziz et al. 2014)
+    vertex_block_descent, ///< Newton's step of one node after the other (Chen et al. 2024)
+    implicit_euler,       ///< conjugate gradients for Newton's steps (Baraff and Witkin 1998)
+    symplectic_euler      ///< explicit: forces of where the step begins
+)
+inline bool is_explicit(StepMethod method) {
+  return method == StepMethod::symplectic_euler;
+}
+
+using RealTime = StepsBy<StepMethod>;
+SPRINGPROOF_FIELDS(RealTime, method, iterations, substeps, chebyshev, step, end, damping)
+SPRINGPROOF_FIELDS(ElementRealTime, method, iterations, substeps, chebyshev, step, end, damping)
+
 struct Fem {
   Formulation formulation = Formulation::log_strain;
   Element element = Element::q1_bbar;
@@ -30,11 +49,12 @@ struct Fem {
   bool has_auto_formulation = false; ///< small_strain where the strains allow it, else the formulation above
   bool has_auto_accuracy = false;    ///< further meshes until the limit is known well enough
   std::vector<Doubt> accepted;       ///< doubts not held against the side
-  ElementMass mass = ElementMass::consistent;
+  ElementMass mass = ElementMass::consistent; ///< beside real_time lumped
   Where where;
+  std::optional<ElementRealTime> real_time{}; ///< absent: every equation is solved
 };
 SPRINGPROOF_FIELDS(Fem, formulation, element, has_auto_element, refine, has_auto_formulation,
-                   has_auto_accuracy, accepted, mass, where)
+                   has_auto_accuracy, accepted, mass, where, real_time)
 
 /// Homogeneous deformations that the multi-load design is fitted to.
 SPRINGPROOF_ENUMERATION(LoadPath,
@@ -63,30 +83,6 @@ struct RelaxationCounts {
   long all() const { return static_cast<long>(load_steps) * per_step + further; }
 };
 SPRINGPROOF_FIELDS(RelaxationCounts, load_steps, per_step, further)
-
-/// How simulators make a step: by an amount of work that is given, whatever it leaves. All but the last go
-/// towards implicit Euler's step.
-SPRINGPROOF_ENUMERATION(
-    StepMethod,
-    xpbd,                 ///< projections on one constraint after the other (Macklin et al. 2016)
-    projective_dynamics,  ///< a factorised constant matrix for all of them (Bouaziz et al. 2014)
-    vertex_block_descent, ///< Newton's step of one node after the other (Chen et al. 2024)
-    implicit_euler,       ///< conjugate gradients for Newton's steps (Baraff and Witkin 1998)
-    symplectic_euler      ///< explicit: forces of where the step begins
-)
-
-struct RealTime {
-  StepMethod method = StepMethod::xpbd;
-  int iterations = 10;           ///< a substep; of symplectic_euler there are none
-  std::optional<int> substeps{}; ///< in a step; absent: 1, of symplectic_euler as many as are stable
-  /// Spectral radius of an iteration of projective_dynamics, which Chebyshev's method then accelerates.
-  std::optional<double> chebyshev{};
-  // For a body without [dynamics], which is to come to rest:
-  double step = 1. / 60; ///< s
-  double end = 20;       ///< s, within which it must
-  double damping = 2;    ///< mass damping, 1/s
-};
-SPRINGPROOF_FIELDS(RealTime, method, iterations, substeps, chebyshev, step, end, damping)
 
 struct Msm {
   Design design = Design::linear_method;

@@ -195,6 +195,10 @@ void read_measures(Table& root, Case& result) {
       table.entry("name").refuse("another name: in motion the [surface] is a measure of this one");
     seen.push_back(measure.name);
     result.has_fields = result.has_fields || is_of_fields(measure.kind);
+    if (result.fem.real_time && is_of_fields(measure.kind))
+      table.entry("kind").refuse(
+          "one of the displacement beside fem.real_time, whose steps leave forces that "
+          "are in no balance");
     return measure;
   });
   if (moves_surface) seen.emplace_back(surface_measure);
@@ -380,7 +384,9 @@ Case read_hard_case(const std::string& path) {
   Table root({&document, Where{path, 1, 1, ""}}, "a table");
   if (root.has("dynamics")) root.entry("dynamics").refuse("left out beside [stress]: hard cases are static");
   Case result = read_definition(root, path);
-  if (result.msm.real_time) refuse(result.msm.where, "real_time must be left out beside [stress]");
+  for (const auto& [has_steps, where] : {std::pair{result.msm.real_time.has_value(), result.msm.where},
+                                         std::pair{result.fem.real_time.has_value(), result.fem.where}})
+    if (has_steps) refuse(where, "real_time must be left out beside [stress]");
   result.stress = root.section("stress", [&](Table& table) { return read_stress(table, result.msm); });
   root.refuse_unknown_keys();
   return result;

@@ -1,4 +1,5 @@
 #include "cases/case/elements.hpp"
+#include "cases/case/read_real_time.hpp"
 #include "cases/case/readers.hpp"
 
 #include <algorithm>
@@ -55,15 +56,18 @@ std::string element_needed(Element element, const Material& material) {
 void read_element(Table& table, const Material& material, Fem& fem) {
   const auto named = table.optional("element", read_name<Element>);
   fem.has_auto_element = !named;
-  fem.element = named.value_or(default_element(fem.formulation, {material}, false));
   std::vector<Element> allowed;
   for (const bool is_tetrahedron : {false, true})
-    for (const Element element : elements_of(fem.formulation, is_tetrahedron)) allowed.push_back(element);
-  table.refuse_unless(
-      contains(allowed, fem.element), {"element"},
-      fmt::format("{} with formulation = \"{}\"", alternatives(allowed), name_of(fem.formulation)));
+    for (const Element element : elements_of(fem, is_tetrahedron)) allowed.push_back(element);
+  const bool has_hexahedra = !elements_of(fem, false).empty();
+  fem.element = named ? *named : default_element(fem, {material}, !has_hexahedra);
+  const std::string beside = fem.real_time
+                                 ? fmt::format("real_time.method = \"{}\"", name_of(fem.real_time->method))
+                                 : fmt::format("formulation = \"{}\"", name_of(fem.formulation));
+  table.refuse_unless(contains(allowed, fem.element), {"element"},
+                      fmt::format("{} with {}", alternatives(allowed), beside));
   const std::string needed = element_needed(fem.element, material);
-  if (!needed.empty()) table.entry("element").refuse(needed);
+  if (!needed.empty() && !fem.real_time) table.entry("element").refuse(needed);
 }
 
 /// A mesh of that many nodes is numbered with int, three degrees of freedom each.
@@ -91,12 +95,37 @@ std::vector<Enum> read_names(const Entry& entry) {
 
 const std::string has_no_mass = "left out without material.density";
 
+/// Beside a method of steps the elements are those that it takes, their masses lumped, and what a case
+/// measures is of displacements.
+void check_real_time(Table& table, const Fem& fem, const Case& definition) {
+  const Entry entry = table.entry("real_time");
+  check_steps(entry, "fem", definition);
+  if (definition.fem_body) entry.refuse("left out beside [fem.body]");
+  if (definition.dynamics && definition.dynamics->start == MotionStart::equilibrium && fem.refine > 0)
+    entry.refuse("left out beside refine and dynamics.start = \"equilibrium\": refine the body's own mesh");
+  if (table.has("mass") && fem.mass == ElementMass::consistent)
+    entry.refuse("left out beside mass = \"consistent\": its masses are lumped");
+  const ElementMethod method = fem.real_time->method;
+  for (const Material& material : materials_of(definition)) {
+    const std::string model = name_of(material);
+    if (method != ElementMethod::total_lagrangian_explicit && model != LinearElastic::name)
+      entry.refuse(fmt::format("of method = \"{}\" with model = \"{}\": the laws of the others are those of "
+                               "\"{}\" materials",
+                               name_of(ElementMethod::total_lagrangian_explicit), model,
+                               LinearElastic::name));
+    if (needs_pressure(material))
+      entry.refuse("left out with an ogden material that has no bulk_modulus: its elements have no pressure");
+  }
+}
+
 Fem read_fem(Table& table, const Case& definition) {
   const Material& material = definition.material;
   Fem fem;
   fem.where = table.where();
   table.know({"body"}); // read_fem_body()
   read_formulation(table, material, fem);
+  fem.real_time = table.section_if_there(
+      "real_time", [&](Table& section) { return read_real_time<ElementMethod>(section, definition); });
   read_element(table, material, fem);
   if (const auto refine = table.optional("refine", WholeNumber{"a whole number from 0 to 8", 0, 8})) {
     fem.refine = *refine;
@@ -109,7 +138,9 @@ Fem read_fem(Table& table, const Case& definition) {
     table.entry("accuracy").refuse("\"none\" or left out beside [dynamics]: ask for --converge instead");
   fem.has_auto_accuracy = accuracy.value_or(definition.dynamics ? "none" : "auto") == "auto";
   table.refuse_unless(definition.dynamics || definition.material_dynamics.density, {"mass"}, has_no_mass);
-  fem.mass = table.optional("mass", read_name<ElementMass>).value_or(fem.mass);
+  fem.mass = table.optional("mass", read_name<ElementMass>)
+                 .value_or(fem.real_time ? ElementMass::lumped : ElementMass::consistent);
+  if (fem.real_time) check_real_time(table, fem, definition);
   fem.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});
   return fem;
 }
@@ -232,8 +263,6 @@ void check_is_for(const Entry& design, const Msm& msm, const Case& definition) {
     design.refuse("\"given\" | \"network\" with this material.fibre, which lies along no axis of the grid");
 }
 
-const WholeNumber up_to_1000{"a whole number from 1 to 1000", 1, 1000};
-
 /// Reads how often force scaling moves the points, where that is given.
 void read_relaxation(Table& table, Msm& msm) {
   table.refuse_unless(msm.solver == Solver::force_scaling,
@@ -253,45 +282,22 @@ void read_relaxation(Table& table, Msm& msm) {
            counts.all(), most);
 }
 
-RealTime read_real_time(Table& table, const Case& definition) {
-  RealTime real_time;
-  real_time.method = table.required("method", read_name<StepMethod>);
-  table.refuse_unless(real_time.method != StepMethod::symplectic_euler, {"iterations"},
-                      "left out: method = \"symplectic_euler\" is explicit and has none");
-  real_time.iterations =
-      table.optional("iterations", WholeNumber{"a whole number from 1 to 100000", 1, 100000})
-          .value_or(real_time.iterations);
-  real_time.substeps = table.optional("substeps", up_to_1000);
+RealTime read_steps(Table& table, const Case& definition) {
+  RealTime real_time = read_real_time<StepMethod>(table, definition);
   table.refuse_unless(real_time.method == StepMethod::projective_dynamics, {"chebyshev"},
                       "left out: it belongs to method = \"projective_dynamics\"");
   real_time.chebyshev = table.optional(
       "chebyshev", Number{"a number above 0 and below 1", [](double rho) { return rho > 0 && rho < 1; }});
-  table.refuse_unless(!definition.dynamics, {"step", "end", "damping"},
-                      "left out beside [dynamics], which has its own");
-  const Number time{"a time from 1e-7 to 1e6 (s)", [](double t) { return t >= 1e-7 && t <= 1e6; }};
-  real_time.step = table.optional("step", time).value_or(real_time.step);
-  real_time.end = table.optional("end", time).value_or(real_time.end);
-  if (!(real_time.end / real_time.step <= most_time_steps)) table.entry("end").refuse("at most 1e7 steps");
-  real_time.damping = table.optional("damping", Number{"a number, 0 or above (1/s)", is_not_negative})
-                          .value_or(real_time.damping);
   return real_time;
 }
 
-/// Steps of implicit Euler are what the methods go towards, of points that have masses of their own.
 void check_real_time(Table& table, const Msm& msm, const Case& definition) {
   const Entry entry = table.entry("real_time");
-  const auto& dynamics = definition.dynamics;
-  if (dynamics && dynamics->scheme.scheme != Scheme::implicit_euler)
-    refuse(dynamics->where, "scheme is \"{}\", must be \"implicit_euler\" beside msm.real_time",
-           name_of(dynamics->scheme.scheme));
-  if (has_cells(definition.body) && !definition.material_dynamics.density)
-    entry.refuse("left out without material.density");
+  check_steps(entry, "msm", definition);
   if (msm.solver != Solver::newton) entry.refuse("left out beside another solver than \"newton\"");
   if (msm.iterations_per_step) entry.refuse("left out beside iterations_per_step");
   if (msm.mass == PointMass::consistent)
     entry.refuse("left out beside mass = \"consistent\": its masses are lumped");
-  if (has_stiffness_damping(definition))
-    entry.refuse("left out beside stiffness_damping: it damps masses alone");
   const StepMethod method = msm.real_time->method;
   if (msm.design == Design::biquadratic &&
       (method == StepMethod::xpbd || method == StepMethod::projective_dynamics))
@@ -348,8 +354,8 @@ Msm read_msm(Table& table, const Case& definition) {
   table.refuse_unless(definition.dynamics.has_value(), {"iterations_per_step"},
                       "left out without [dynamics]");
   msm.iterations_per_step = table.optional("iterations_per_step", up_to_1000);
-  msm.real_time = table.section_if_there("real_time",
-                                         [&](Table& section) { return read_real_time(section, definition); });
+  msm.real_time = table.section_if_there(
+      "real_time", [&](Table& section) { return read_steps(section, definition); });
   if (msm.real_time) check_real_time(table, msm, definition);
   msm.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});
   const std::string needed = design_needed(msm, material);

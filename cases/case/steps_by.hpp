@@ -13,6 +13,8 @@ struct StepsBy {
   Method method{};
   int iterations = 10;           ///< a substep; explicit methods have none
   std::optional<int> substeps{}; ///< in a step; absent: 1, of explicit methods as many as are stable
+  /// Spectral radius of an iteration of projective_dynamics, which Chebyshev's method then accelerates.
+  std::optional<double> chebyshev{};
   // For a body without [dynamics], which is to come to rest:
   double step = 1. / 60; ///< s
   double end = 20;       ///< s, within which it must

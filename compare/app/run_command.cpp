@@ -271,13 +271,6 @@ nlohmann::ordered_json results_to_json(const Results& results) {
   return document;
 }
 
-void check_time_studies(const std::vector<Question>& questions) {
-  for (const Question& question : questions)
-    if (!question.scene.definition.dynamics)
-      throw cases::InputError(question.scene.definition.file +
-                              ": --converge-time: the case has no [dynamics]");
-}
-
 int run_comparisons(const RunOptions& options) {
   const auto only =
       options.displacements.has_others() ? cases::Side::fem : cases::value_of<cases::Side>(options.only);
@@ -309,7 +302,8 @@ int run_comparisons(const RunOptions& options) {
   const FinishedCases finished(options.out, questions);
   ProgressLine line(1);
   for (const Question& question : questions) line.expect(total_seconds(estimate(question)));
-  if (options.converges_time) check_time_studies(questions);
+  if (options.converges_time)
+    for (const Question& question : questions) check_time_study(question.scene, question.request);
   Results results;
   bool failed = false;
   for (Question& question : questions) {

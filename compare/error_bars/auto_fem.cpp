@@ -229,8 +229,28 @@ double tolerated_error_percent(const cases::Expectation& expectation, double fem
   return expectation.quantity == cases::Quantity::fem ? 100 * width / std::abs(fem) / 4 : width / 4;
 }
 
+namespace {
+
+/// Elements that a method steps, and the limit of those that are solved, if asked for.
+Answers solve_stepped(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept) {
+  const cases::Fem& asked = scene.definition.fem;
+  Answers answers;
+  answers.resolved = asked;
+  if (n_meshes > 0 || asked.has_auto_accuracy) {
+    answers = solve_fem(with_solved_fem(scene), n_meshes, kept);
+    answers.resolved.real_time = asked.real_time;
+    if (!answers.fem.converged())
+      answers.refined = RefinedMeshes{{}, {}, "the elements in equilibrium: " + answers.fem.solution.message};
+  }
+  answers.fem = solve_stepped_fem(with_fem(scene, answers.resolved));
+  return answers;
+}
+
+} // namespace
+
 Answers solve_fem(const cases::Scene& scene, int n_meshes, const KeptMeshes& kept) {
   cases::check_finite_elements(scene.definition);
+  if (scene.definition.fem.real_time) return solve_stepped(scene, n_meshes, kept);
   if (!scene.of_fem.empty()) return solve_fem_at_network(scene, n_meshes);
   const cases::Fem& asked = scene.definition.fem;
   Answers answers;

@@ -352,12 +352,27 @@ cases::Scene with_half_the_step(cases::Scene scene) {
   return scene;
 }
 
+void check_time_study(const cases::Scene& scene, const Request& request) {
+  const cases::Case& definition = scene.definition;
+  if (!definition.dynamics)
+    throw cases::InputError(definition.file +
+                            ": --converge-time halves the steps of [dynamics], which is missing");
+  const auto refuse_if = [](bool is_there, const cases::Where& where, const char* key) {
+    if (is_there)
+      throw cases::InputError(where, fmt::format("{} must be left out with --converge-time: what its steps "
+                                                 "leave unsolved follows no order in the step; "
+                                                 "--error-budget tells both apart",
+                                                 key));
+  };
+  const cases::Msm& msm = definition.msm;
+  refuse_if(request.asks(cases::Side::msm) && msm.real_time, msm.where, "real_time");
+  refuse_if(request.asks(cases::Side::msm) && msm.iterations_per_step, msm.where, "iterations_per_step");
+  refuse_if(request.asks(cases::Side::fem) && definition.fem.real_time, definition.fem.where, "real_time");
+}
+
 TimeStudy study_time(const cases::Scene& scene, const Answers& answers, const Request& request,
                      SolveFem solve_fem) {
-  if (!scene.definition.dynamics)
-    throw cases::InputError(scene.definition.file +
-                            ": --converge-time halves the steps of [dynamics], which is "
-                            "missing");
+  check_time_study(scene, request);
   Request single = request;
   single.meshes = 0;
   single.peer.clear();

@@ -148,9 +148,12 @@ struct TimeStudy {
 /// A dynamic case's scene with half its step, which writes the same bodies.
 cases::Scene with_half_the_step(cases::Scene scene);
 
+/// @throws InputError if the case has no [dynamics], or a model whose steps are left unsolved
+void check_time_study(const cases::Scene& scene, const Request& request);
+
 /// Solves a dynamic case once more with half its step. Collective over MPI_COMM_WORLD.
 /// @param answers  those to the case as it is
-/// @throws InputError if the case has no [dynamics]
+/// @throws InputError as check_time_study()
 TimeStudy study_time(const cases::Scene& scene, const Answers& answers, const Request& request,
                      SolveFem solve_fem);
 

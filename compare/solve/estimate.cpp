@@ -44,6 +44,10 @@ constexpr Factorised finite_elements{25, 650, 6.5};
 constexpr Factorised springs_lattice{5, 245, 3};
 constexpr double factorised_unknowns = 26460;
 
+/// Steps of methods, of the cube of 20^3 and 30^3 cells: seconds are of an iteration. Vertex block descent
+/// takes six times as long, conjugate gradients a fifth.
+constexpr Linear stepped{40, 7000, 1e-6};
+
 /// Exponents seen from 10,000 to 60,000 unknowns. A nested dissection of a body takes n^(4/3) and n^2.
 constexpr double memory_power = 1.25, time_power = 1.7;
 
@@ -120,6 +124,21 @@ Estimate in_time(Estimate equilibrium, const cases::Case& definition) {
   return equilibrium;
 }
 
+/// A model that a method steps: a lattice or elements assembled, and in a motion the factor of its slowest
+/// vibration. A body without [dynamics] is estimated to rest in the last of its steps.
+template<class Method>
+Estimate in_steps(const std::string& model, double unknowns, const cases::StepsBy<Method>& real_time,
+                  const cases::Case& definition, const Factorised& at) {
+  const auto& dynamics = definition.dynamics;
+  const double n_steps = dynamics ? dynamics->n_steps() : real_time.end / real_time.step;
+  Estimate estimate = linear(model, unknowns, unknowns, stepped);
+  estimate.seconds *= n_steps * real_time.substeps.value_or(1) *
+                      (cases::is_explicit(real_time.method) ? 1 : real_time.iterations);
+  if (dynamics) estimate.megabytes += factorised(model, unknowns, at).megabytes;
+  estimate.is_on_first_rank = true;
+  return estimate;
+}
+
 /// What is kept of a motion: some bodies, and what measures watch; twice while it goes to the answer.
 double bytes_of_motion(const BodySize& body) {
   const auto& dynamics = body.outline.definition.dynamics;
@@ -188,6 +207,9 @@ std::optional<BodySize> size_of(const cases::Case& definition) try {
 
 Estimate estimate_fem(const BodySize& body) {
   const cases::Fem& fem = body.outline.definition.fem;
+  if (fem.real_time)
+    return in_steps("finite elements (in steps)", 3 * refined_nodes(body, fem.refine), *fem.real_time,
+                    body.outline.definition, finite_elements);
   const int halvings = fem_reference::n_halvings(fem);
   const double unknowns = element_unknowns(body);
   const auto backend =
@@ -217,6 +239,8 @@ Estimate estimate_fem(const BodySize& body) {
 Estimate estimate_springs(const BodySize& body) {
   const double unknowns = 3 * body.n_nodes;
   const cases::Case& definition = body.outline.definition;
+  if (definition.msm.real_time)
+    return in_steps("springs (in steps)", unknowns, *definition.msm.real_time, definition, springs_lattice);
   const bool is_on_grid = body.outline.mesh.grid && !is_assembled(body.outline);
   Estimate estimate;
   if (is_on_grid && msm::prefers_multigrid(*body.outline.mesh.grid, body.n_nodes))
@@ -246,10 +270,11 @@ std::vector<Estimate> estimate(const BodySize& body, const Request& request) {
   if (request.asks(cases::Side::fem)) {
     models.push_back(estimate_fem(body));
     BodySize refined = body;
+    refined.outline.definition.fem.real_time.reset();
     int& refine = refined.outline.definition.fem.refine;
     const int own = refine, finest = std::max(request.meshes - 1, own);
     for (refine = finest - request.meshes + 1; refine <= finest; ++refine)
-      if (refine != own) models.push_back(estimate_fem(refined));
+      if (refine != own || body.outline.definition.fem.real_time) models.push_back(estimate_fem(refined));
   }
   if (request.asks(cases::Side::msm)) models.push_back(estimate_springs(body));
   // Fields are made while the model is there still. By their types: FieldSums and Fields of a cell and a

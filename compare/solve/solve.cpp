@@ -1,5 +1,6 @@
 #include "compare/solve/solve.hpp"
 
+#include "compare/solve/from_equilibrium.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solvers.hpp"
 #include "compare/solve/springs.hpp"
@@ -8,6 +9,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
+#include <memory>
+#include <utility>
 
 namespace springproof::compare {
 
@@ -79,7 +82,34 @@ cases::Scene with_fem(cases::Scene scene, const cases::Fem& fem) {
   return scene;
 }
 
+cases::Scene with_solved_fem(cases::Scene scene) {
+  scene.definition.fem.real_time.reset();
+  return scene;
+}
+
+Answer solve_stepped_fem(const cases::Scene& scene, fem_reference::StepBy by) {
+  const auto& dynamics = scene.definition.dynamics;
+  std::vector<Eigen::Vector3d> start;
+  if (dynamics && dynamics->start == cases::MotionStart::equilibrium) {
+    const Answer before = gathered(solve_fem_as_given(with_solved_fem(cases::scene_before_start(scene))));
+    if (!before.converged()) return before;
+    start = before.solution.displacement;
+  }
+  return shared_from_rank_0<Answer>(scene.mesh, [&] {
+    std::unique_ptr<fem_reference::SteppedElements> elements;
+    Answer answer = solve_side(
+        [&] { return elements = std::make_unique<fem_reference::SteppedElements>(scene, *scene.definition.fem.real_time, 1), elements.get(); },
+        [&](fem_reference::SteppedElements* of) {
+          return dynamics ? of->follow(start, by) : of->come_to_rest();
+        });
+    if (answer.solution.from_equilibrium) // outside of the time that the iterations took
+      add_distance(answer.solution, "the same elements", [&] { return elements->equilibrium(); });
+    return answer;
+  });
+}
+
 Answer solve_fem_as_given(const cases::Scene& scene) {
+  if (scene.definition.fem.real_time) return solve_stepped_fem(scene);
   solvers(); // loading them is no part of the time
   if (scene.definition.dynamics)
     return solve_side([&] { return std::cref(scene); },

@@ -2,6 +2,7 @@
 
 #include "compare/provenance/machine.hpp"
 #include "compare/solve/answers.hpp"
+#include "fem_reference/real_time/real_time.hpp"
 
 #include <functional>
 #include <new>
@@ -69,9 +70,17 @@ using SolveFem = Answers (*)(const cases::Scene& scene, int n_meshes, const Kept
 /// @param fem  our answer to the same scene   Collective.
 using AskPeer = Peer (*)(const cases::Scene& scene, const Answer& fem);
 
-/// Solves the finite elements with the [fem] of the scene's definition as it is. Collective over
-/// MPI_COMM_WORLD.
+/// Solves the finite elements with the [fem] of the scene's definition as it is; where that has real_time,
+/// solve_stepped_fem(). Collective over MPI_COMM_WORLD.
 Answer solve_fem_as_given(const cases::Scene& scene);
+
+/// The finite elements by the method of [fem] real_time, on one rank and one thread: a motion, or where the
+/// body comes to rest.
+/// @param by  newton: the method's law in a motion whose steps Newton's method solves.   Collective.
+Answer solve_stepped_fem(const cases::Scene& scene, fem_reference::StepBy by = fem_reference::StepBy::method);
+
+/// The scene with its finite elements solved, without real_time.
+cases::Scene with_solved_fem(cases::Scene scene);
 
 /// Why this scene has no continuum limit, such as forces on points, whose displacement grows without bound.
 std::optional<std::string> reason_without_continuum_limit(const cases::Scene& scene);

@@ -4,14 +4,13 @@
 #include "cases/scene/regions.hpp"
 #include "cases/scene/thickness.hpp"
 #include "compare/solve/design_by_shape.hpp"
+#include "compare/solve/from_equilibrium.hpp"
 #include "compare/solve/solve.hpp"
 #include "fem_reference/element_stiffness.hpp"
-#include "mechanics/larger.hpp"
 #include "msm/model.hpp"
 #include "msm/moving_springs.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <random>
@@ -232,55 +231,6 @@ cases::Solution with_fields(const cases::Scene& scene, const msm::SpringBody& sp
   return solution;
 }
 
-namespace {
-
-/// Describes the distance in one sentence.
-std::string describe_distance(const cases::Solution& solution) {
-  const cases::FromEquilibrium& from = *solution.from_equilibrium;
-  const std::string rest =
-      from.rest ? fmt::format("at rest after {:.3g} s, {} steps; ", from.rest->time, from.rest->steps) : "";
-  const std::string state =
-      rest + fmt::format("{} after {} iterations: residual {:.2e}, ",
-                         solution.is_equilibrium() ? "in equilibrium" : "NOT IN EQUILIBRIUM",
-                         solution.relaxation_iterations, solution.residual);
-  if (!from.largest) return state + "the distance from equilibrium is not known: " + from.reason;
-  return state +
-         fmt::format("{:.3g} mm at most and {:.3g} mm in the root mean square from the equilibrium of the "
-                     "same springs (Newton's method)",
-                     *from.largest, *from.root_mean_square);
-}
-
-/// Adds how far a solution of a given number of iterations is from the equilibrium that Newton's method
-/// finds.
-void add_distance(const cases::Scene& scene, const msm::SpringBody& springs, int n_threads,
-                  const mechanics::EquilibriumSettings& settings, cases::Solution& solution) {
-  cases::FromEquilibrium& from = *solution.from_equilibrium;
-  cases::Scene in_equilibrium = scene;
-  in_equilibrium.definition.msm.solver = cases::Solver::newton;
-  in_equilibrium.definition.msm.relaxation.reset();
-  in_equilibrium.definition.msm.real_time.reset();
-  Answer newton = solve_side(
-      [&] {
-        return msm::Model(in_equilibrium, springs, {msm::Path::automatic, n_threads});
-      },
-      [&](msm::Model& model) { return model.solve(settings); });
-  if (!newton.converged()) {
-    from.reason = newton.solution.message;
-    return;
-  }
-  double largest_squared = 0, sum = 0;
-  for (std::size_t n = 0; n < solution.displacement.size(); ++n) {
-    const double squared = (solution.displacement[n] - newton.solution.displacement[n]).squaredNorm();
-    largest_squared = mechanics::larger(largest_squared, squared);
-    sum += squared;
-  }
-  from.largest = std::sqrt(largest_squared);
-  from.root_mean_square = std::sqrt(sum / static_cast<double>(solution.displacement.size()));
-  from.displacement = std::move(newton.solution.displacement);
-}
-
-} // namespace
-
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design) {
   return solve_springs(scene, n_threads, design, {});
 }
@@ -328,8 +278,15 @@ Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm
   hold_against_loads(scene, answer,
                      [&](const cases::Solution& solution) { msm::fields(scene, springs, solution); });
   if (answer.solution.from_equilibrium) { // outside of the time that the iterations took
-    add_distance(scene, springs, n_threads, settings, answer.solution);
-    answer.solution.message = describe_distance(answer.solution);
+    cases::Scene in_equilibrium = scene;
+    in_equilibrium.definition.msm.solver = cases::Solver::newton;
+    in_equilibrium.definition.msm.relaxation.reset();
+    in_equilibrium.definition.msm.real_time.reset();
+    add_distance(answer.solution, "the same springs", [&] {
+      return msm::Model(in_equilibrium, springs, {msm::Path::automatic, n_threads})
+          .solve(settings)
+          .displacement;
+    });
   }
   return answer;
 }

@@ -107,6 +107,60 @@ class Lattices {
   }
 };
 
+/// The finite elements on the case's mesh with every equation solved.
+struct SolvedFem {
+  cases::Solution solution;
+  std::optional<cases::Solution> half_step{}; ///< of a motion
+  std::optional<cases::Solution> other_law{}; ///< by the law that a method of steps has of its own
+  std::string no_other_law{};                 ///< why it is not known; empty where it is, or there is none
+  bool has_other_law() const { return other_law.has_value(); }
+};
+
+/// Adds what a method's own law comes to, which is not that of the case.
+void add_other_law(const Comparison& comparison, SolvedFem& solved) {
+  const auto& real_time = comparison.scene.definition.fem.real_time;
+  if (!real_time || real_time->method == cases::ElementMethod::total_lagrangian_explicit) return;
+  if (comparison.scene.definition.dynamics) {
+    Answer found = solve_stepped_fem(comparison.scene, fem_reference::StepBy::newton);
+    if (!found.converged())
+      solved.no_other_law = found.solution.message;
+    else
+      solved.other_law = std::move(found.solution);
+    return;
+  }
+  const cases::Solution& rest = comparison.answers.fem.solution;
+  const auto& from = rest.from_equilibrium;
+  if (!from || !from->largest) {
+    solved.no_other_law = from ? from->reason : "the elements did not come to rest";
+    return;
+  }
+  solved.other_law = rest;
+  solved.other_law->displacement = from->displacement;
+}
+
+/// @param told  gets the reason where there is no answer
+std::optional<SolvedFem> solved_fem(const Comparison& comparison, std::string& told) {
+  const Answers& answers = comparison.answers;
+  SolvedFem solved{answers.fem.solution};
+  const auto solve = [&](cases::Scene scene, const char* how) -> std::optional<cases::Solution> {
+    Answer answer = solve_fem_as_given(with_solved_fem(with_fem(std::move(scene), answers.resolved)));
+    if (answer.converged()) return std::move(answer.solution);
+    told = fmt::format("the finite elements {}: {}", how, answer.solution.message);
+    return std::nullopt;
+  };
+  if (comparison.scene.definition.fem.real_time) {
+    auto all = solve(comparison.scene, "in equilibrium");
+    if (!all) return std::nullopt;
+    solved.solution = std::move(*all);
+  }
+  if (comparison.scene.definition.dynamics) {
+    solved.half_step = solve(with_half_the_step(comparison.scene), "with half the step");
+    if (!solved.half_step) return std::nullopt;
+  }
+  add_other_law(comparison, solved);
+  return solved;
+}
+
 const char* const by_construction = "zero by construction";
 
 /// The parts of both models' errors at one measure.
@@ -117,9 +171,8 @@ class Budget {
         parts_(measure, comparison.scene), order_(order_in_time(comparison.scene)) {}
 
   /// Finds the truth, the finite elements' limit in mesh and step.
-  /// @param half_step  finite elements on the case's mesh with half its step; null: of statics
   /// @return why there is none; empty when there is one
-  std::string find_truth(const std::optional<MeshStudy>& study, const cases::Solution* half_step) {
+  std::string find_truth(const std::optional<MeshStudy>& study, const SolvedFem& solved) {
     if (cases::is<cases::measures::DisplacementFieldMax>(measure_))
       return "the largest displacements of two bodies are at two places, and parts of them do not add up";
     if (is_trajectory_norm(measure_)) return "the norm of a course over time has no parts that add up";
@@ -128,12 +181,12 @@ class Budget {
     if (!studied.reference) return studied.no_reference;
     limit_ = is_field_norm(measure_.kind) ? Known{study->field->value, study->field->uncertainty}
                                           : MeasuredParts::of_number(*studied.reference);
-    const auto value = parts_.value(scene_, answers_.fem.solution);
+    const auto value = parts_.value(scene_, solved.solution);
     if (!value) return "the finite elements have no such value";
     fem_ = *value;
     fem_step_ = zero();
-    if (half_step) {
-      const auto half = parts_.value(scene_, *half_step);
+    if (solved.half_step) {
+      const auto half = parts_.value(scene_, *solved.half_step);
       if (!half) return "the finite elements have no such value with half the step";
       fem_step_ = step_part(fem_, *half, order_);
     }
@@ -143,12 +196,22 @@ class Budget {
     return "";
   }
 
-  ErrorBudget of_fem() {
-    whole_ = difference(fem_, truth_);
+  ErrorBudget of_fem(const SolvedFem& solved) {
+    const auto own = parts_.value(scene_, answers_.fem.solution);
+    if (!own) return {measure_.name, {}, {}, {}, {}, {}, "the finite elements have no such value"};
+    whole_ = difference(*own, truth_);
     ErrorBudget budget = begin();
     budget.law = budget.iterations = {0., 0, by_construction};
     budget.mesh = part(difference(fem_, limit_.value), limit_.uncertainty);
     budget.step = step(fem_step_);
+    if (!scene_.definition.fem.real_time) return budget;
+    const auto all = solved.has_other_law() ? parts_.value(scene_, *solved.other_law) : fem_;
+    if (solved.no_other_law.empty() && all) {
+      if (solved.has_other_law()) budget.law = part(difference(*all, fem_), zero());
+      budget.iterations = part(difference(*own, *all), zero());
+    } else {
+      budget.law = budget.iterations = {std::nullopt, 0, solved.no_other_law};
+    }
     return budget;
   }
 
@@ -231,7 +294,7 @@ cases::Scene finer_lattice(const cases::Scene& scene) {
   for (cases::Measure& measure : own.definition.measures)
     cases::for_each_region(measure, [&](cases::Region& region, bool) {
       if (!region.is_node()) return;
-      region.near = Vector3d(scene.mesh.nodes[index(cases::select_node(scene.mesh, region))]);
+      region.near = Vector3d(scene.mesh.nodes[cases::index(cases::select_node(scene.mesh, region))]);
       region.tolerance.reset();
     });
   cases::Scene fine = cases::refine(own, 1);
@@ -287,23 +350,16 @@ ErrorBudgets study_errors(const Comparison& comparison, const Request& request) 
     budgets.note = "a model has no answer";
     return budgets;
   }
-  std::optional<cases::Solution> half_step;
-  if (comparison.scene.definition.dynamics) {
-    Answer half = solve_fem_as_given(with_fem(with_half_the_step(comparison.scene), answers.resolved));
-    if (!half.converged()) {
-      budgets.note = "the finite elements with half the step: " + half.solution.message;
-      return budgets;
-    }
-    half_step = std::move(half.solution);
-  }
+  const std::optional<SolvedFem> solved = solved_fem(comparison, budgets.note);
+  if (!solved) return budgets;
   const std::vector<SolvedLattice> lattices = Lattices(comparison, request, budgets).all;
   const bool is_solved = !has_iteration_limit(comparison.scene.definition.msm);
   for (const cases::Measure& measure : comparison.scene.definition.measures) {
     Budget budget(measure, comparison);
-    const std::string why = budget.find_truth(comparison.mesh_study, half_step ? &*half_step : nullptr);
+    const std::string why = budget.find_truth(comparison.mesh_study, *solved);
     const ErrorBudget none{measure.name, {}, {}, {}, {}, {}, why};
     budgets.springs.push_back(why.empty() ? budget.of_springs(lattices, budgets.note, is_solved) : none);
-    budgets.fem.push_back(why.empty() ? budget.of_fem() : none);
+    budgets.fem.push_back(why.empty() ? budget.of_fem(*solved) : none);
   }
   return budgets;
 }
@@ -325,7 +381,7 @@ SpringLattices::SpringLattices(const Comparison& solved, const Request& request)
 ErrorBudget SpringLattices::budget_of(const Comparison& answer, const std::string& measure,
                                       bool is_solved) const {
   Budget budget(*find_named(answer.scene.definition.measures, measure), answer);
-  const std::string why = budget.find_truth(answer.mesh_study, nullptr);
+  const std::string why = budget.find_truth(answer.mesh_study, SolvedFem{answer.answers.fem.solution});
   if (!why.empty()) return {measure, {}, {}, {}, {}, {}, why};
   return budget.of_springs(all_->lattices, all_->note, is_solved);
 }

@@ -342,6 +342,9 @@ double set_frames(Sweep& sweep) {
     throw cases::InputError(definition.file +
                             ": material.density: is not there, and steps in time need it; give "
                             "it in kg/m^3: --set material.density=1000");
+  if (definition.fem.real_time)
+    throw cases::InputError(definition.fem.where,
+                            "real_time must be left out of a sweep, whose finite elements are the reference");
   cases::RealTime steps = definition.msm.real_time.value_or(cases::RealTime{});
   steps.step = 1 / sweep.rate->hertz;
   for (const std::string& ignored : set_steps(definition, steps))

@@ -166,6 +166,9 @@ std::vector<Cells> levels_in_time(const cases::Case& definition, Extent extent,
   if (definition.dynamics->n_steps() % 2 != 0)
     throw cases::InputError(definition.dynamics->where,
                             "a sweep in time takes twice the step too: end must be an even number of steps");
+  if (definition.fem.real_time)
+    throw cases::InputError(definition.fem.where,
+                            "real_time must be left out of a sweep, whose finite elements are the reference");
   check_watched(definition, levels);
   return levels;
 }

@@ -219,8 +219,10 @@ Plan plan_sweep(const cases::Case& definition, Extent extent) {
     throw cases::InputError(definition.msm.where,
                             "relaxation_steps, relaxation_iterations and further_iterations must "
                             "be left out of a sweep, which is of equilibria");
-  if (definition.msm.real_time)
-    throw cases::InputError(definition.msm.where, "real_time must be left out of a sweep of equilibria");
+  for (const auto& [has_steps, where] :
+       {std::pair{definition.msm.real_time.has_value(), definition.msm.where},
+        std::pair{definition.fem.real_time.has_value(), definition.fem.where}})
+    if (has_steps) throw cases::InputError(where, "real_time must be left out of a sweep of equilibria");
   for (const cases::Measure& measure : definition.measures)
     if (cases::is_of_fields(measure.kind))
       throw cases::InputError(measure.where,

@@ -109,10 +109,8 @@ struct SteppedElements::Implementation {
 
   mechanics::IntegrationSettings settings(double step) {
     return mechanics::in_substeps(real_time, [&] {
-      return cases::is_explicit(real_time.method)
-                 ? mechanics::stable_substeps(elements.tangent(), masses_of(scene).mass, step,
-                                              cases::name_of(real_time.method), own.definition.fem.where)
-                 : 1;
+      return mechanics::stable_substeps(elements.tangent(), masses_of(scene).mass, step,
+                                        cases::name_of(real_time.method), own.definition.fem.where);
     });
   }
 };

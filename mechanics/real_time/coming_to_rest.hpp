@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cases/case/steps_by.hpp"
 #include "mechanics/dynamics/follow_motion.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
@@ -7,8 +8,8 @@
 namespace springproof::mechanics {
 
 /// The scene as a motion that begins with whole loads.
-template<class RealTime>
-cases::Scene in_motion(cases::Scene scene, const RealTime& real_time) {
+template<class Method>
+cases::Scene in_motion(cases::Scene scene, const cases::StepsBy<Method>& real_time) {
   cases::Dynamics& dynamics = scene.definition.dynamics.emplace();
   dynamics.scheme.scheme = cases::Scheme::implicit_euler;
   dynamics.step = real_time.step;
@@ -30,12 +31,14 @@ inline void add_rest(cases::Solution& solution, const CameToRest& rest, double r
 }
 
 /// Settings of steps that are not halved.
-/// @param stable  returns the number of substeps where the case gives none
-template<class RealTime, class Stable>
-IntegrationSettings in_substeps(const RealTime& real_time, const Stable& stable) {
+/// @param stable  returns the number of substeps of an explicit method where the case gives none
+template<class Method, class Stable>
+IntegrationSettings in_substeps(const cases::StepsBy<Method>& real_time, const Stable& stable) {
   IntegrationSettings settings;
   settings.max_halvings = 0;
-  settings.substeps = real_time.substeps ? *real_time.substeps : stable();
+  settings.substeps = real_time.substeps                     ? *real_time.substeps
+                      : cases::is_explicit(real_time.method) ? stable()
+                                                             : 1;
   return settings;
 }
 

@@ -98,11 +98,8 @@ MovingSprings::StepMethod step_method(const cases::RealTime& real_time, const Pr
 
 mechanics::IntegrationSettings in_substeps(const cases::Scene& scene, const SpringBody& springs,
                                            double step) {
-  const cases::RealTime& real_time = *scene.definition.msm.real_time;
-  return mechanics::in_substeps(real_time, [&] {
-    return real_time.method == cases::StepMethod::symplectic_euler ? stable_substeps(scene, springs, step)
-                                                                   : 1;
-  });
+  return mechanics::in_substeps(*scene.definition.msm.real_time,
+                                [&] { return stable_substeps(scene, springs, step); });
 }
 
 cases::Scene in_motion(cases::Scene scene) {

@@ -63,7 +63,7 @@ double largest_difference(const msm::Points& a, const msm::Points& b) {
   return largest;
 }
 
-constexpr cases::MaterialDynamics undamped{1000., 0, 0};
+const cases::MaterialDynamics undamped{1000., 0, 0, {}};
 
 } // namespace
 

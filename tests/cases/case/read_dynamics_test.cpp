@@ -342,6 +342,57 @@ TEST_CASE("steps in real time are read") {
   CHECK(accelerated.msm.real_time->chebyshev == 0.95);
 }
 
+TEST_CASE("steps of finite elements have their defaults, and elements that methods take") {
+  const std::string still =
+      replaced(good_case, "poissons_ratio = 0.35", "poissons_ratio = 0.35\ndensity = 1000");
+  CHECK_FALSE(read_text(still).fem.real_time);
+  const auto with = [&](const std::string& keys, const std::string& element = "") {
+    return read_text(replaced(still, "element = 'q1_bbar'", element + "real_time = { " + keys + " }")).fem;
+  };
+  const auto corotational = with("method = 'corotational'");
+  REQUIRE(corotational.real_time);
+  CHECK(corotational.real_time->method == ElementMethod::corotational);
+  CHECK(corotational.real_time->iterations == 10);
+  CHECK_FALSE(corotational.real_time->substeps);
+  CHECK(corotational.element == Element::q1_bbar);
+  CHECK(corotational.mass == ElementMass::lumped);
+  CHECK(with("method = 'corotational'", "element = 'q1'\n").element == Element::q1);
+  CHECK(with("method = 'total_lagrangian_explicit', substeps = 9").element == Element::q1);
+  CHECK(with("method = 'xpbd', iterations = 3, damping = 0").element == Element::p1);
+}
+
+TEST_CASE("steps of finite elements are refused where they have no meaning") {
+  const std::string still =
+      replaced(good_case, "poissons_ratio = 0.35", "poissons_ratio = 0.35\ndensity = 1000");
+  const auto refused = [&](const std::string& text, const std::string& key, const std::string& allowed) {
+    CAPTURE(text);
+    CHECK_THROWS_WITH(read_text(text), Catch::Contains(key) && Catch::Contains(allowed));
+  };
+  const auto with = [&](const std::string& keys, const std::string& more = "") {
+    return replaced(still, "element = 'q1_bbar'", more + "real_time = { " + keys + " }");
+  };
+  refused(with("method = 'implicit_euler'"), "fem.real_time.method", "corotational");
+  refused(with("method = 'total_lagrangian_explicit', iterations = 3"), "fem.real_time.iterations",
+          "explicit");
+  refused(with("method = 'corotational'", "mass = 'consistent'\n"), "fem.real_time", "consistent");
+  refused(with("method = 'corotational'", "element = 'q2'\n"), "fem.element", "q1_bbar");
+  refused(with("method = 'total_lagrangian_explicit'", "element = 'q1_bbar'\n"), "fem.element", "q1");
+  refused(with("method = 'xpbd'", "element = 'q1'\n"), "fem.element", "p1");
+  refused(replaced(good_case, "element = 'q1_bbar'", "real_time = { method = 'corotational' }"),
+          "fem.real_time", "material.density");
+  refused(replaced(dynamic_case, "mass = 'lumped'", "real_time = { method = 'corotational' }"), "dynamics",
+          "fem.real_time");
+  refused(replaced(with("method = 'corotational'"),
+                   "kind = 'tilt'\ntop = 'z+ x- y-'\nbottom = 'z- x- y-'\ntoward = 'x'",
+                   "kind = 'strain_energy'"),
+          "measure[0].kind", "fem.real_time");
+  const std::string ogden = replaced(
+      replaced(replaced(with("method = 'corotational'"), "'linear_elastic'", "'ogden'"),
+               "youngs_modulus = 0.3\npoissons_ratio = 0.35", "mu = [0.1]\nalpha = [2]\nbulk_modulus = 5"),
+      "formulation = 'log_strain'", "formulation = 'hyperelastic'");
+  refused(ogden, "fem.real_time", "total_lagrangian_explicit");
+}
+
 TEST_CASE("steps in real time are refused where they have no meaning") {
   const auto with = [](const std::string& keys, const std::string& more = "") {
     return replaced(replaced(good_case, "poissons_ratio = 0.35", "poissons_ratio = 0.35\ndensity = 1000"),

@@ -134,3 +134,12 @@ TEST_CASE("a static case has no error of time integration") {
   const cases::Scene scene = cases::make_scene(definition);
   CHECK_THROWS_AS(compare::study_time(scene, {}, {}, compare::solve_fem), cases::InputError);
 }
+
+TEST_CASE("a model whose steps are left unsolved has no error of steps by halves") {
+  cases::Case cut_off = pulled("implicit_euler", 0.002);
+  cut_off.msm.iterations_per_step = 6;
+  const cases::Scene scene = cases::make_scene(cut_off);
+  CHECK_THROWS_WITH(compare::check_time_study(scene, {}),
+                    Catch::Contains("iterations_per_step") && Catch::Contains("--error-budget"));
+  CHECK_NOTHROW(compare::check_time_study(scene, {cases::Side::fem}));
+}

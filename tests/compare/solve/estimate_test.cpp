@@ -225,3 +225,17 @@ TEST_CASE("only long solves are announced, with every model's unknowns, memory a
              Contains("cube: finite elements (matrix-free): 3.09e+06 unknowns, about ") &&
                  Contains("; springs (matrix-free): 3.09e+06 unknowns, about "));
 }
+
+TEST_CASE("models in steps are not estimated by the grid's solvers, and take as long as their iterations") {
+  cases::Case definition = cube(30);
+  const Estimate solved = compare::estimate_springs(body(definition));
+  definition.msm.real_time = cases::RealTime{cases::StepMethod::xpbd, 10, {}, {}, 0.01, 2, 2};
+  const Estimate springs = compare::estimate_springs(body(definition));
+  CHECK_THAT(springs.model, Contains("in steps"));
+  CHECK(springs.megabytes == Approx(640).epsilon(0.2)); // as conjugate gradients took
+  CHECK(springs.megabytes > 5 * solved.megabytes);
+  definition.msm.real_time->substeps = 3;
+  CHECK(compare::estimate_springs(body(definition)).seconds == Approx(3 * springs.seconds));
+  definition.fem.real_time = cases::ElementRealTime{cases::ElementMethod::corotational, 10, {}, {}, 0.01, 2, 2};
+  CHECK_THAT(compare::estimate_fem(body(definition)).model, Contains("in steps"));
+}

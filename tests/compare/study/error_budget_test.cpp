@@ -92,6 +92,25 @@ TEST_CASE("what iterations leave is the distance from the equilibrium of the sam
   CHECK(*found.whole - *solved.whole == Approx(*found.iterations.percent).margin(1e-4));
 }
 
+TEST_CASE("elements that a method steps err by their law and iterations too, and the parts add up",
+          "[verification]") {
+  const std::string load = "[[load]]\nregion = \"x+\"\nkind = \"traction\"\nvalue = [0, 0, 1e-4]\n";
+  const std::string method =
+      "[fem]\nreal_time = { method = \"corotational\", iterations = 3, damping = 20 }\n";
+  const compare::ErrorBudget fem = budgets_of(beam(load + method)).fem.at(0);
+  CHECK(*fem.law.percent != 0); // not log_strain's
+  CHECK(std::abs(*fem.law.percent) < 1);
+  CHECK(*fem.step.percent == 0);
+  CHECK(std::abs(*fem.iterations.percent) < 0.5); // at rest few are enough
+  CHECK(*fem.sum() == Approx(*fem.whole).epsilon(1e-9));
+  const std::string method_in_motion = "[fem]\nreal_time = { method = \"corotational\", iterations = 3 }\n";
+  const std::string motion = "[dynamics]\nstep = 0.001\nend = 0.02\nscheme = \"implicit_euler\"\n";
+  const compare::ErrorBudget moving = budgets_of(beam(load + method_in_motion + motion)).fem.at(0);
+  CHECK(std::abs(*moving.step.percent) > 1);
+  CHECK(std::abs(*moving.iterations.percent) > 0.01);
+  CHECK(*moving.sum() == Approx(*moving.whole).epsilon(1e-9));
+}
+
 TEST_CASE("springs of a file have no finer lattice, and their law and mesh are not told apart",
           "[verification]") {
   const compare::ErrorBudgets budgets =

@@ -12,7 +12,7 @@ namespace moving_bodies {
 
 namespace {
 
-constexpr cases::MaterialDynamics water{1000., 0, 0};
+const cases::MaterialDynamics water{1000., 0, 0, {}};
 const msm::CellStiffness power_log{0.2, 0.1, 0.3, 0.05, msm::Exponents{-1.3, -1.8, -2.2}};
 
 cases::Solution follow_on_grid(const cases::Scene& scene, const std::vector<msm::CellStiffness>& cells,
