@@ -49,5 +49,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR})
 set(CPACK_DEBIAN_PACKAGE_DEPENDS libopenblas0-pthread) # which the library asks for under the name of any BLAS
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox, python3-numpy")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "calculix-ccx, valgrind, libeigen3-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "calculix-ccx, python3-getfem, valgrind, libeigen3-dev")
 include(CPack)

@@ -2,11 +2,13 @@
 
 #include "cases/case/names.hpp"
 #include "cases/mesh/vtk_functions.hpp"
+#include "compare/app/typed_command.hpp"
 #include "compare/client/ask_client.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/error_bars/convergence.hpp"
 #include "compare/peers/calculix.hpp"
 #include "compare/peers/external_side.hpp"
+#include "compare/peers/peer_study.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/report/pages.hpp"
@@ -16,12 +18,10 @@
 #include "compare/study/error_budget.hpp"
 #include "compare/study/write_study.hpp"
 #include "compare/table/table.hpp"
-#include "compare/write/quote.hpp"
 #include "compare/write/write.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fstream>
 #include <iostream>
 
 namespace springproof::compare {
@@ -38,6 +38,7 @@ struct RunOptions {
   bool converges_time = false;   ///< once more with half the step
   bool has_error_budget = false; ///< law, mesh, step and iterations apart
   std::string peer;              ///< a program that is asked too; empty: none
+  bool has_second_code() const { return peer == "getfem"; } ///< which has limits of its own
   DisplacementOptions displacements;
   std::string replay;               ///< a recording of interact; empty: none
   std::vector<std::string> designs; ///< to be ranked, or "all"; empty: the case's own springs are solved
@@ -99,14 +100,6 @@ std::string msm_setting(const std::string& design, const cases::Msm& own) {
   for (const cases::Doubt doubt : own.accepted) accepted.push_back('"' + cases::name_of(doubt) + '"');
   if (!accepted.empty()) table += fmt::format(", accept=[{}]", fmt::join(accepted, ", "));
   return table + "}";
-}
-
-/// This process's command as it was typed, quoted for a shell; empty where the system does not tell.
-std::string typed_command() {
-  std::ifstream in("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> words;
-  for (std::string word; std::getline(in, word, '\0');) words.push_back(word);
-  return shell_line(words);
 }
 
 /// What a run leaves open: other designs, the mesh, the files.
@@ -217,7 +210,8 @@ struct Results {
   std::vector<Comparison> done;
   std::vector<TimeStudy> time_studies; ///< as many, if asked for
   std::vector<ErrorBudgets> budgets;   ///< likewise
-  std::vector<Ranking> rankings;       ///< as many, if asked for
+  std::vector<PeerStudy> peer_studies; ///< likewise
+  std::vector<Ranking> rankings;       ///< likewise
 };
 
 /// The page of the case that was solved last, with its designs ranked when asked. Collective.
@@ -239,6 +233,7 @@ void print_last(const RunOptions& options, const Results& results) {
   const cases::Case& definition = comparison.scene.definition;
   write_text(std::cout, comparison, options.meshes > 0 ? MeshTable::printed : MeshTable::left_out);
   if (options.converges_time) write_time_study_text(std::cout, results.time_studies.back());
+  if (options.has_second_code()) write_peer_study_text(std::cout, results.peer_studies.back());
   if (options.has_error_budget) write_error_budget_text(std::cout, results.budgets.back());
   if (!options.out.empty())
     write_wrapped(std::cout,
@@ -262,12 +257,13 @@ void write_files(const RunOptions& options, const Results& results) {
 
 nlohmann::ordered_json results_to_json(const Results& results) {
   nlohmann::ordered_json document = to_json(results.done);
-  for (std::size_t i = 0; i < results.time_studies.size(); ++i)
-    document["cases"][i]["time_study"] = time_study_to_json(results.time_studies[i]);
-  for (std::size_t i = 0; i < results.budgets.size(); ++i)
-    document["cases"][i]["error_budget"] = error_budgets_to_json(results.budgets[i]);
-  for (std::size_t i = 0; i < results.rankings.size(); ++i)
-    document["cases"][i]["ranking"] = ranking_to_json(results.rankings[i]);
+  const auto add = [&](const char* key, const auto& records, const auto& record_to_json) {
+    for (std::size_t i = 0; i < records.size(); ++i) document["cases"][i][key] = record_to_json(records[i]);
+  };
+  add("time_study", results.time_studies, time_study_to_json);
+  add("peer_study", results.peer_studies, peer_study_to_json);
+  add("error_budget", results.budgets, error_budgets_to_json);
+  add("ranking", results.rankings, ranking_to_json);
   return document;
 }
 
@@ -275,14 +271,16 @@ int run_comparisons(const RunOptions& options) {
   const auto only =
       options.displacements.has_others() ? cases::Side::fem : cases::value_of<cases::Side>(options.only);
   // All are read before any is solved: a mistake in the last costs nothing.
-  std::vector<Question> questions =
-      read_questions(options.files, options.settings, {only, options.meshes, options.peer});
+  std::vector<Question> questions = read_questions(
+      options.files, options.settings, {only, options.meshes, options.has_second_code() ? "" : options.peer});
   if (!options.out.empty()) { // for the .vtu
     cases::check_has_vtk();
     for (Question& question : questions) question.scene.definition.has_fields = true;
   }
-  if (options.has_error_budget && n_mpi_ranks() > 1)
-    throw cases::InputError("--error-budget: it runs on one rank; start the program without mpirun");
+  if (n_mpi_ranks() > 1 && (options.has_error_budget || options.has_second_code()))
+    throw cases::InputError(
+        fmt::format("{}: it runs on one rank; start the program without mpirun",
+                    options.has_error_budget ? "--error-budget" : "--peer " + options.peer));
   if (options.has_error_budget) // the truth is a limit
     for (Question& question : questions) {
       cases::refuse_network(question.scene.definition, "--error-budget",
@@ -317,6 +315,10 @@ int run_comparisons(const RunOptions& options) {
       results.time_studies.push_back(
           study_time(comparison.scene, comparison.answers, question.request, solve_fem));
       failed = failed || !results.time_studies.back().failures.empty();
+    }
+    if (options.has_second_code()) {
+      results.peer_studies.push_back(study_by_getfem(comparison));
+      failed = failed || results.peer_studies.back().status == cases::Status::failed;
     }
     if (options.has_error_budget) {
       results.budgets.push_back(study_errors(comparison, question.request));
@@ -353,8 +355,12 @@ void add_run_command(CLI::App& program, Action& chosen) {
   add_converge_option(*command, options->meshes);
   command->add_flag("--converge-time", options->converges_time,
                     "solve a dynamic case once more with half its step: the error of time integration");
-  command->add_option("--peer", options->peer, "ask another program about the finite elements' side too")
-      ->check(CLI::IsMember({"ccx"}));
+  command
+      ->add_option(
+          "--peer", options->peer,
+          "ask another program about the finite elements' side too: ccx on the same mesh, getfem for "
+          "the limit of its own meshes")
+      ->check(CLI::IsMember({"ccx", "getfem"}));
   for (CLI::Option* others : add_displacement_options(*command, options->displacements))
     others->excludes(only)->excludes("--converge-time"); // which halves our own step
   command

@@ -17,28 +17,9 @@ namespace {
 // A scene has mm, N, MPa and t; the message has m, N, Pa and kg.
 constexpr double metres = 1e-3, pascals = 1e6, kilograms = 1e3;
 
-/// A message as it grows.
-struct Message {
-  Json header, list = Json::array();
-  std::string bytes{};
-
-  void add(const std::string& name, const NumberArray& array) {
-    list.push_back({{"name", name}, {"shape", {array.values.size() / array.columns, array.columns}}});
-    bytes.append(reinterpret_cast<const char*>(array.values.data()), array.values.size() * sizeof(double));
-  }
-  std::string text() {
-    header["arrays"] = list;
-    return header.dump() + "\n" + bytes;
-  }
-};
-
-void add_mesh(Message& message, const cases::Scene& scene) {
-  NumberArray nodes{3}, cells{scene.mesh.shape == cases::CellShape::tetrahedron ? 4u : 8u}, materials{4};
-  for (const Eigen::Vector3d& x : scene.mesh.nodes)
-    nodes.add({x.x() * metres, x.y() * metres, x.z() * metres});
-  for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) cells.add_nodes(scene.mesh.cells[c]);
-  message.add("nodes", nodes);
-  message.add(cells.columns == 4 ? "tetrahedra" : "hexahedra", cells);
+void add_mesh(ArrayMessage& message, const cases::Scene& scene) {
+  message.add_mesh(scene.mesh, metres);
+  NumberArray materials{4};
   const std::vector<cases::Material> all = cases::materials_of(scene.definition);
   for (std::size_t c = 0; c < scene.mesh.cells.size(); ++c) {
     const cases::LinearElastic linear =
@@ -54,7 +35,7 @@ Json history_of(const cases::History& history) {
   return {{"points", history.points}, {"frequency", history.frequency}};
 }
 
-void add_loads(Message& message, const cases::Scene& scene) {
+void add_loads(ArrayMessage& message, const cases::Scene& scene) {
   Json loads = Json::array(), gravity = Json::array();
   for (const cases::Scene::AppliedLoad& applied : scene.loads) {
     const Json history = history_of(applied.load.history);
@@ -75,7 +56,7 @@ void add_loads(Message& message, const cases::Scene& scene) {
 }
 
 /// Constrained components, and where they are at the times of the frames, or at the full load.
-void add_supports(Message& message, const cases::Scene& scene, const std::vector<double>& times) {
+void add_supports(ArrayMessage& message, const cases::Scene& scene, const std::vector<double>& times) {
   const bool moves = scene.definition.dynamics.has_value();
   msm::Problem problem = moves ? msm::make_moving_problem(scene) : msm::make_problem(scene);
   NumberArray supports{2}, motion{0};
@@ -110,7 +91,7 @@ std::string scene_message(const cases::Scene& scene, const ClientBudget& budget)
   if (cases::has_memory(scene.definition))
     throw cases::SolveError("clients are told of springs without a memory, and this case has material.prony");
   const std::vector<double> times = frame_times(scene);
-  Message message;
+  ArrayMessage message;
   message.header = {{"springproof", "scene"},
                     {"protocol", client_protocol},
                     {"case", scene.definition.name},
