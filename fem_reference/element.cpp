@@ -48,7 +48,7 @@ ElementType element_type(const cases::Fem& fem, const LawTraits& law) {
         fmt::format("this formulation's stress has no separate pressure, which {} needs; allowed "
                     "here: {}",
                     cases::name_of(fem.element),
-                    cases::alternatives(cases::elements_of(fem.formulation, facts.is_tetrahedron))));
+                    cases::alternatives(cases::elements_of(fem, facts.is_tetrahedron))));
   const auto row =
       std::find_if(table.begin(), table.end(), [&](const Row& one) { return one.element == fem.element; });
   const Row own = row != table.end() ? *row : Row{fem.element, 0};
