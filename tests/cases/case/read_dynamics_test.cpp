@@ -187,7 +187,7 @@ TEST_CASE("a Prony series is read, and refused where it has no meaning") {
   refused("[{ g = 0.2, k = -1, tau = 0.1 }]", "[0].k", "from 0 and below 1");
   refused("[{ g = 0.2, tau = 0 }]", "[0].tau", "1e-9 to 1e9 (s)");
   refused("[{ g = 0.2 }]", "[0].tau", "is missing");
-  refused("[{ g = 0.2, tau = 1, e = 2 }]", "[0].e", "unknown");
+  refused("[{ g = 0.2, tau = 1, e = 2 }]", "[0].e", "is not a key here");
   refused("[{ g = 0.6, tau = 1 }, { g = 0.4, tau = 2 }]", "", "add up to less than 1");
   refused("0.2", "", "a list of { g = ..., k = ..., tau = ... }");
 }

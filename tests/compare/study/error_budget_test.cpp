@@ -96,7 +96,7 @@ TEST_CASE("elements that a method steps err by their law and iterations too, and
           "[verification]") {
   const std::string load = "[[load]]\nregion = \"x+\"\nkind = \"traction\"\nvalue = [0, 0, 1e-4]\n";
   const std::string method =
-      "[fem]\nreal_time = { method = \"corotational\", iterations = 3, damping = 20 }\n";
+      "[fem]\nreal_time = { method = \"corotational\", iterations = 5, damping = 5 }\n";
   const compare::ErrorBudget fem = budgets_of(beam(load + method)).fem.at(0);
   CHECK(*fem.law.percent != 0); // not log_strain's
   CHECK(std::abs(*fem.law.percent) < 1);

@@ -58,7 +58,7 @@ cases::Scene with_skewed_cells(cases::Scene scene) {
 }
 
 ElementRealTime steps(ElementMethod method, int iterations, std::optional<int> substeps = {}) {
-  return {method, iterations, substeps, 0.01, 20, 5};
+  return {method, iterations, substeps, {}, 0.01, 20, 5};
 }
 
 Field end_of(const cases::Scene& scene, const ElementRealTime& by, int n_threads = 1) {
