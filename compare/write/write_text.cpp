@@ -45,12 +45,14 @@ std::string inverted_text(const cases::Solution& solution) {
 /// What it took to solve a side that did not fail.
 std::string effort_text(const Answer& side) {
   const cases::Solution& s = side.solution;
-  const bool is_relaxed = s.relaxation_iterations > 0;
+  const bool is_relaxed = s.relaxation_iterations > 0,
+             is_stepped = s.from_equilibrium && s.from_equilibrium->rest.has_value();
   const long n_iterations = is_relaxed ? s.relaxation_iterations : s.newton_iterations;
-  std::string text = fmt::format("{}, {} unknowns, {} {} iteration{}, {:.3g} s",
+  const char* const kind = is_stepped ? "" : is_relaxed ? "explicit " : "Newton ";
+  std::string text = fmt::format("{}, {} unknowns, {} {}iteration{}, {:.3g} s",
                                  s.is_equilibrium() ? cases::name_of(s.status) : "not in equilibrium",
-                                 s.unknowns, n_iterations, is_relaxed ? "explicit" : "Newton",
-                                 n_iterations == 1 ? "" : "s", side.seconds());
+                                 s.unknowns, n_iterations, kind, n_iterations == 1 ? "" : "s",
+                                 side.seconds());
   if (!s.is_equilibrium()) text += fmt::format(", residual {:.1e}", s.residual);
   text += inverted_text(s);
   if (s.negative_eigenvalues.value_or(0) > 0)
