@@ -282,15 +282,6 @@ void read_relaxation(Table& table, Msm& msm) {
            counts.all(), most);
 }
 
-RealTime read_steps(Table& table, const Case& definition) {
-  RealTime real_time = read_real_time<StepMethod>(table, definition);
-  table.refuse_unless(real_time.method == StepMethod::projective_dynamics, {"chebyshev"},
-                      "left out: it belongs to method = \"projective_dynamics\"");
-  real_time.chebyshev = table.optional(
-      "chebyshev", Number{"a number above 0 and below 1", [](double rho) { return rho > 0 && rho < 1; }});
-  return real_time;
-}
-
 void check_real_time(Table& table, const Msm& msm, const Case& definition) {
   const Entry entry = table.entry("real_time");
   check_steps(entry, "msm", definition);

@@ -33,6 +33,16 @@ StepsBy<Method> read_real_time(Table& table, const Case& definition) {
   return real_time;
 }
 
+/// Reads the same of springs, with the key of one of their methods.
+inline RealTime read_steps(Table& table, const Case& definition) {
+  RealTime real_time = read_real_time<StepMethod>(table, definition);
+  table.refuse_unless(real_time.method == StepMethod::projective_dynamics, {"chebyshev"},
+                      "left out: it belongs to method = \"projective_dynamics\"");
+  real_time.chebyshev = table.optional(
+      "chebyshev", Number{"a number above 0 and below 1", [](double rho) { return rho > 0 && rho < 1; }});
+  return real_time;
+}
+
 /// Steps of implicit Euler are what the methods go towards, of points that have masses of their own.
 /// @param entry  real_time     @param table  "msm" or "fem"
 inline void check_steps(const Entry& entry, const char* table, const Case& definition) {
