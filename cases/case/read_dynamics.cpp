@@ -157,6 +157,9 @@ void check_memory(const Case& definition) {
   if (definition.msm.real_time)
     refuse(definition.msm.where,
            "real_time must be left out beside material.prony: its methods have no memory");
+  if (definition.fem.real_time)
+    refuse(definition.fem.where,
+           "real_time must be left out beside material.prony: its methods have no memory");
   for (const PronyTerm& term : definition.material_dynamics.prony)
     if (!has_cells(definition.body) && term.k > 0)
       refuse(definition.msm.where, "a network has no volume terms: material.prony must have k = 0");

@@ -60,7 +60,10 @@ ErrorBudget without_parts(const std::string& measure, const std::string& reason)
 /// @param is_solved  nothing is left by iterations
 ErrorBudget parts_of(const Basis& basis, const Comparison& answer, const std::string& measure,
                      bool is_solved) {
-  if (!basis.lattices) return without_parts(measure, "a body in motion has them by run --error-budget");
+  if (basis.scene.definition.dynamics)
+    return without_parts(measure, "a body in motion has them by run --error-budget");
+  if (!basis.lattices)
+    return without_parts(measure, "the case's springs were not solved, so that no finer lattice is known");
   return basis.lattices->budget_of(answer, measure, is_solved);
 }
 
@@ -115,7 +118,7 @@ JudgedRow springs_row(const Basis& basis, const ClientBudget& budget) {
   };
   limits.tell_moving = [&](const mechanics::CameToRest& body) { moving = body; };
   const Answer answer = solve_springs(basis.scene, 1, design, limits);
-  JudgedRow row = row_of(springs_model, basis, answer, !basis.scene.definition.msm.real_time.has_value());
+  JudgedRow row = row_of(springs_model, basis, answer, !has_iteration_limit(basis.scene.definition.msm));
   if (is_late) row.failure += fmt::format(": it took longer than {:g} s", budget.seconds);
   row.milliseconds_a_step = milliseconds_a_step(answer);
   if (moving && row.failure.empty()) {
@@ -259,8 +262,8 @@ cases::RealTime real_time_in(cases::StepMethod method, const ClientBudget& budge
 
 NamedMethod method_of(const std::string& argument, const ClientBudget& budget) {
   const auto refuse = [&](const std::string& reason) -> cases::InputError {
-    return cases::InputError(fmt::format("--method: {} {}; give NAME, NAME:ITERATIONS or "
-                                         "NAME:ITERATIONS:SUBSTEPS",
+    return cases::InputError(fmt::format("--method: {} {}; give NAME, NAME:ITERATIONS, "
+                                         "NAME:ITERATIONS:SUBSTEPS or NAME::SUBSTEPS",
                                          one_line(argument), reason));
   };
   std::vector<std::string> parts(1);
@@ -277,7 +280,9 @@ NamedMethod method_of(const std::string& argument, const ClientBudget& budget) {
     return *value;
   };
   if (parts.size() > 3) throw refuse("has more than two numbers");
-  if (parts.size() > 1) named.real_time.iterations = number(parts[1], "iterations", 100000);
+  const bool has_iterations = parts.size() > 1 && !(parts.size() == 3 && parts[1].empty());
+  if (has_iterations && cases::is_explicit(*method)) throw refuse("is explicit and has no iterations");
+  if (has_iterations) named.real_time.iterations = number(parts[1], "iterations", 100000);
   if (parts.size() > 2) named.real_time.substeps = number(parts[2], "substeps", 1000);
   return named;
 }

@@ -98,7 +98,11 @@ Answer solve_stepped_fem(const cases::Scene& scene, fem_reference::StepBy by) {
   return shared_from_rank_0<Answer>(scene.mesh, [&] {
     std::unique_ptr<fem_reference::SteppedElements> elements;
     Answer answer = solve_side(
-        [&] { return elements = std::make_unique<fem_reference::SteppedElements>(scene, *scene.definition.fem.real_time, 1), elements.get(); },
+        [&] {
+          const cases::ElementRealTime& steps = *scene.definition.fem.real_time;
+          elements = std::make_unique<fem_reference::SteppedElements>(scene, steps, 1);
+          return elements.get();
+        },
         [&](fem_reference::SteppedElements* of) {
           return dynamics ? of->follow(start, by) : of->come_to_rest();
         });

@@ -13,6 +13,10 @@
 
 namespace springproof::compare {
 
+bool has_iteration_limit(const cases::Msm& msm) {
+  return msm.iterations_per_step || msm.real_time || msm.relaxation;
+}
+
 namespace {
 
 using cases::index;
@@ -28,10 +32,6 @@ cases::Scene without_iteration_limit(cases::Scene scene) {
     msm.solver = cases::Solver::newton;
   }
   return scene;
-}
-
-bool has_iteration_limit(const cases::Msm& msm) {
-  return msm.iterations_per_step || msm.real_time || msm.relaxation;
 }
 
 /// What a lattice is left unsolved for.
@@ -136,6 +136,7 @@ void add_other_law(const Comparison& comparison, SolvedFem& solved) {
   }
   solved.other_law = rest;
   solved.other_law->displacement = from->displacement;
+  msm::measure_cells(comparison.scene.mesh, *solved.other_law);
 }
 
 /// @param told  gets the reason where there is no answer

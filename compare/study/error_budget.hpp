@@ -65,6 +65,9 @@ cases::Scene finer_lattice(const cases::Scene& scene);
 /// @return a note and no budgets where a model has no answer
 ErrorBudgets study_errors(const Comparison& comparison, const Request& request);
 
+/// Whether springs are left where a given number of iterations has brought them.
+bool has_iteration_limit(const cases::Msm& msm);
+
 /// The springs of a case at rest on its own and finer lattices, which all answers by these springs share.
 class SpringLattices {
  public:

@@ -101,6 +101,10 @@ Comparison compare_sides(cases::Scene scene, const Answers& fem, const Answers& 
 }
 
 Answers solve_reference(const cases::Scene& scene, int meshes) {
+  if (scene.definition.fem.real_time)
+    throw cases::InputError(scene.definition.fem.where,
+                            "real_time must be left out here: springs and programs are held against solved "
+                            "finite elements; run has elements that are stepped");
   return gathered(solve(scene, {cases::Side::fem, meshes}, solve_fem));
 }
 

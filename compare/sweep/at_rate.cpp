@@ -304,7 +304,12 @@ class Search {
       Candidate& one = candidates_[c];
       const DesignedBody& body = bodies_[one.body];
       SweepRow row{variant_of(one), std::move(one.run), one.error, {}, body.in_equilibrium_percent};
-      row.run.first_seconds = {*median(time_frames(body, one.steps, n_timed_frames))};
+      try {
+        row.run.first_seconds = {*median(time_frames(body, one.steps, n_timed_frames))};
+      } catch (const cases::SolveError& error) { // further than it was followed
+        leave_out(full_name(row.variant), error.what());
+        continue;
+      }
       if (!definition_.dynamics)
         row.measure_error_percent =
             measure_errors_percent(*sweep_.reference, body.variant.cells, row.run.first.displacement);

@@ -63,6 +63,8 @@ std::vector<double> time_frames(const DesignedBody& body, const cases::RealTime&
   const mechanics::Vector start = stepped.start();
   mechanics::TimeIntegrator motion(stepped.body.motion(), dynamics.scheme,
                                    {0, start, mechanics::Vector::Zero(start.size()), {}}, stepped.settings);
+  if (body.scene.definition.dynamics) // beyond its end a motion need not hold
+    n_frames = std::min(n_frames, std::max(n_first_frames, static_cast<int>(dynamics.n_steps())));
   std::vector<double> seconds;
   const Stopwatch whole;
   Stopwatch frame;

@@ -122,9 +122,11 @@ void write_rate_screen(std::ostream& out, const Sweep& sweep) {
   if (!sweep.reference) return write_paragraph(out, rate_sentence(sweep), "", "  ");
   const ReferenceValue& reference = sweep.reference->field;
   write_paragraph(out,
-                  fmt::format("reference: {}; known to {:.2g} % (displacement field)",
-                              reference.note.empty() ? "the finite elements' limit" : reference.note,
-                              reference.uncertainty_percent),
+                  "reference: " + (reference.note.empty() ? "the finite elements' limit" : reference.note) +
+                      (reference.uncertainty_percent > 0
+                           ? fmt::format("; known to {:.2g} % (displacement field)",
+                                         reference.uncertainty_percent)
+                           : ""),
                   "", "  ");
   out << '\n';
   write_paragraph(out, rate_sentence(sweep), "", "  ");

@@ -43,17 +43,21 @@ std::string inverted_text(const cases::Solution& solution) {
 }
 
 /// What it took to solve a side that did not fail.
-std::string effort_text(const Answer& side) {
+/// @param method  of its steps in real time; empty: its equations were solved
+std::string effort_text(const Answer& side, const std::string& method) {
   const cases::Solution& s = side.solution;
-  const bool is_relaxed = s.relaxation_iterations > 0,
-             is_stepped = s.from_equilibrium && s.from_equilibrium->rest.has_value();
-  const long n_iterations = is_relaxed ? s.relaxation_iterations : s.newton_iterations;
-  const char* const kind = is_stepped ? "" : is_relaxed ? "explicit " : "Newton ";
+  const bool is_relaxed = s.relaxation_iterations > 0;
+  const long n_iterations = is_relaxed          ? s.relaxation_iterations
+                            : method.empty() ? s.newton_iterations
+                                             : s.linear_iterations;
+  const std::string kind = !method.empty() ? method + " " : is_relaxed ? "explicit " : "Newton ";
   std::string text = fmt::format("{}, {} unknowns, {} {}iteration{}, {:.3g} s",
                                  s.is_equilibrium() ? cases::name_of(s.status) : "not in equilibrium",
                                  s.unknowns, n_iterations, kind, n_iterations == 1 ? "" : "s",
                                  side.seconds());
   if (!s.is_equilibrium()) text += fmt::format(", residual {:.1e}", s.residual);
+  if (!method.empty() && s.trajectory)
+    text += fmt::format(", a step leaves {:.2g} % of the forces at most", 100 * s.trajectory->largest_residual);
   text += inverted_text(s);
   if (s.negative_eigenvalues.value_or(0) > 0)
     text += fmt::format(", unstable: {} negative eigenvalues of the tangent", *s.negative_eigenvalues);
@@ -63,7 +67,7 @@ std::string effort_text(const Answer& side) {
 }
 
 void write_side(std::ostream& out, const std::string& label, const std::string& what, const Answer& side,
-                bool is_motion) {
+                bool is_motion, const std::string& method) {
   const cases::Solution& s = side.solution;
   if (s.status == cases::Status::skipped) return;
   if (s.status == cases::Status::failed) {
@@ -72,7 +76,7 @@ void write_side(std::ostream& out, const std::string& label, const std::string& 
                                is_motion ? "time" : "load", s.message));
     return;
   }
-  write_labelled(out, label, what + ": " + effort_text(side));
+  write_labelled(out, label, what + ": " + effort_text(side, method));
   if (s.trajectory) write_motion_text(out, *s.trajectory, side.solve_seconds);
   if (!s.message.empty()) write_below(out, s.message);
 }
@@ -107,9 +111,12 @@ void write_interpolated(std::ostream& out, const Comparison& comparison) {
 void write_fem(std::ostream& out, const Comparison& comparison) {
   const cases::Case& definition = comparison.scene.definition;
   const Answers& answers = comparison.answers;
-  write_side(out, "fem",
-             cases::name_of(answers.resolved.formulation) + " " + cases::name_of(definition.fem.element),
-             answers.fem, definition.dynamics.has_value());
+  const auto& real_time = definition.fem.real_time;
+  const bool has_own_law = real_time && real_time->method != cases::ElementMethod::total_lagrangian_explicit;
+  const std::string method = real_time ? cases::name_of(real_time->method) : "",
+                    law = has_own_law ? method : cases::name_of(answers.resolved.formulation);
+  write_side(out, "fem", law + " " + cases::name_of(definition.fem.element), answers.fem,
+             definition.dynamics.has_value(), method);
   if (answers.interpolated && answers.interpolated->side == cases::Side::fem)
     write_interpolated(out, comparison);
   for (const std::string& choice : answers.choices) write_below(out, choice);
@@ -134,7 +141,8 @@ void write_springs(std::ostream& out, const Comparison& comparison) {
   const Answers& answers = comparison.answers;
   if (answers.msm_source.empty())
     write_side(out, "springs", describe(answers.design, definition.msm.design), answers.msm,
-               definition.dynamics.has_value());
+               definition.dynamics.has_value(),
+               definition.msm.real_time ? cases::name_of(definition.msm.real_time->method) : "");
   else
     write_external(out, comparison);
   if (answers.interpolated && answers.interpolated->side == cases::Side::msm)

@@ -31,8 +31,8 @@ TimeIntegrator::TimeIntegrator(DynamicProblem& problem, const cases::TimeScheme&
 void TimeIntegrator::advance(double to) {
   double step = (to - now_.time) / settings_.substeps;
   for (int halvings = 0; now_.time < to;) {
-    // A remainder left by rounding is no step of its own.
-    const bool is_last = to - now_.time <= step * (1 + 1e-9);
+    // What is left is a whole number of steps but for rounding, which is no step of its own.
+    const bool is_last = to - now_.time <= 1.5 * step;
     if (try_step(is_last ? to : now_.time + step, to)) continue;
     if (halvings++ == settings_.max_halvings) give_up(failure_);
     ++n_halvings_;

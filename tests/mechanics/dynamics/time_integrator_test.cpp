@@ -3,6 +3,7 @@
 #include "cases/case/error.hpp"
 #include "tests/mechanics/dynamics/oscillator.hpp"
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -254,6 +255,21 @@ TEST_CASE("a step whose equation is not solved is halved until it is") {
   TimeIntegrator of_half_steps(other, newmark, released(1), exact_steps());
   for (int n = 1; n <= 20; ++n) of_half_steps.advance(n * 0.05);
   CHECK(motion.now().displacement[0] == Approx(of_half_steps.now().displacement[0]).epsilon(1e-9));
+}
+
+TEST_CASE("what rounding leaves of substeps is no step of its own") {
+  Body body = linear(Matrix::Identity(1, 1), Matrix::Zero(1, 1));
+  double before = 0, shortest = 1;
+  body.load = [&](double t) {
+    if (t > before) shortest = std::min(shortest, t - before);
+    before = t;
+    return Vector(Vector::Zero(1));
+  };
+  mechanics::IntegrationSettings settings;
+  settings.substeps = 300;
+  TimeIntegrator motion(body, newmark, at(Vector::Zero(1), Vector::Zero(1)), settings);
+  for (int n = 1; n <= 600; ++n) motion.advance(n / 60.);
+  CHECK(shortest > 0.99 / 60 / 300);
 }
 
 TEST_CASE("a step that no halving helps ends the motion with its time, and what was reached stays") {
