@@ -58,6 +58,12 @@ int run(const FitOptions& options) {
   const bool is_curve = !options.curve.curve_file.empty();
   if (is_curve == !options.cases.files.empty())
     throw cases::InputError("fit: give case files with --to DATA, or --curve FILE with --law");
+  const DesignOptions& columns = options.curve;
+  if (!is_curve &&
+      !(columns.curve_strain.empty() && columns.curve_stress.empty() && columns.curve_unit.empty()))
+    throw cases::InputError("fit: --strain, --stress and --unit are of the columns of --curve");
+  if (options.n_terms > 1 && (options.law == "neo_hookean" || options.law == "mooney_rivlin"))
+    throw cases::InputError(fmt::format("fit: --terms: {} has none to choose; leave it out", options.law));
   if (!is_curve && options.data.empty())
     throw cases::InputError("fit: --to is missing, must be a CSV file of data, or \"limit\"");
   claim_folder(options.out);

@@ -268,6 +268,8 @@ nlohmann::ordered_json results_to_json(const Results& results) {
 }
 
 int run_comparisons(const RunOptions& options) {
+  if (!options.peer.empty() && options.only == "msm")
+    throw cases::InputError("run: --peer is asked about the finite elements' side; leave --only msm out");
   const auto only =
       options.displacements.has_others() ? cases::Side::fem : cases::value_of<cases::Side>(options.only);
   // All are read before any is solved: a mistake in the last costs nothing.

@@ -28,7 +28,7 @@ struct FittedDatum {
 struct FittedMeasure {
   std::string measure;
   std::size_t n = 0;
-  double error_percent = 0; ///< as prediction_error_percent()
+  std::optional<double> error_percent{}; ///< as prediction_error_percent()
   bool is_held_out = false;
 };
 

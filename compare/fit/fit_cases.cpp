@@ -42,6 +42,15 @@ FreeParameter parameter_of(const std::string& key, double start) {
 
 /// @param free  KEY or KEY=START
 FreeParameter read_parameter(const FitCases& all, const std::string& free) {
+  const auto checked = [](const FreeParameter& parameter) {
+    for (const double end : {parameter.lowest, parameter.highest})
+      if (std::isfinite(end) && end != 0 && !(std::abs(parameter.start - end) >= 1e-3))
+        throw cases::InputError(
+            fmt::format("--free: {0}: starts from {1:g}, its end, must start inside by 0.001 "
+                        "or more: --free {0}=START",
+                        parameter.name, parameter.start));
+    return parameter;
+  };
   const std::size_t equals = free.find('=');
   const std::string key = free.substr(0, equals);
   if (equals != std::string::npos) {
@@ -49,24 +58,23 @@ FreeParameter read_parameter(const FitCases& all, const std::string& free) {
     if (!start)
       throw cases::InputError(fmt::format("--free: {}: starts from \"{}\", must be a finite number", key,
                                           free.substr(equals + 1)));
-    return parameter_of(key, *start);
+    return checked(parameter_of(key, *start));
   }
   const auto start = cases::parse_file(all.files.front(), all.settings).at_path(key).value<double>();
   if (!start)
     throw cases::InputError(
         fmt::format("--free: {}: {} has no number there; say where to start: --free {}=START", key,
                     all.files.front(), key));
-  return parameter_of(key, *start);
+  return checked(parameter_of(key, *start));
 }
 
 /// The moduli of the body's own material.
 std::vector<std::string> moduli_of(const cases::Case& definition) {
-  if (std::holds_alternative<cases::LinearElastic>(definition.material))
+  if (std::holds_alternative<cases::LinearElastic>(definition.material) && cases::has_cells(definition.body))
     return {"material.youngs_modulus", "material.poissons_ratio"};
-  throw cases::InputError(
-      fmt::format("--free: is missing: {} has the material \"{}\"; name the keys to be fitted, "
-                  "such as material.mu[0]",
-                  definition.file, cases::name_of(definition.material)));
+  throw cases::InputError(fmt::format("--free: is missing: {} has no youngs_modulus; name the keys to be "
+                                      "fitted, as they stand in the file",
+                                      definition.file));
 }
 
 /// @param digits  17 are all
@@ -281,6 +289,14 @@ FitData limits_as_data(const FitCases& all, const AnswerQuestions& answer) {
       data.states.push_back({file, {}, is_held_out});
       data.states.back().markers.push_back({"displacement", cases::measures::DisplacementFieldL2{}});
       questions.push_back({scene_of(all, data.states.back(), {}), request});
+      const cases::Case& definition = questions.back().scene.definition;
+      cases::refuse_network(definition, "--to limit", "give data");
+      if (definition.dynamics)
+        throw cases::InputError(file +
+                                ": --to limit: the case is a motion, which has no limit of its field; give "
+                                "data");
+      if (definition.fem.real_time)
+        throw cases::InputError(definition.fem.where, "real_time must be left out with --to limit");
       data.states.back().markers.clear();
     }
   const std::vector<Answers> answers = answer(questions);
@@ -308,6 +324,16 @@ Fit fit_cases(const FitCases& all, const FitData& data, const std::string& data_
   const cases::Case first = cases::read_case(all.files.front(), all.settings);
   for (const std::string& key : free.empty() ? moduli_of(first) : free)
     parameters.push_back(read_parameter(all, key));
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const std::string& key = parameters[p].name;
+    for (std::size_t other = 0; other < p; ++other)
+      if (parameters[other].name == key) throw cases::InputError("--free: " + key + ": is there twice");
+    for (const FitState& state : data.states)
+      for (const std::string& setting : state.settings)
+        if (setting.rfind(key + "=", 0) == 0)
+          throw cases::InputError(
+              fmt::format("--free: {}: is a column of {}, and cannot be fitted", key, data_name));
+  }
   const FitData fitted = part_of(data, false), held = part_of(data, true);
   if (held.states.empty() && !all.held_out.empty())
     throw cases::InputError(fmt::format("--hold-out: {} has no data of {}", data_name, all.held_out.front()));

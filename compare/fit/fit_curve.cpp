@@ -123,6 +123,7 @@ Fit fit_curve(const msm::UniaxialCurve& curve, CurveLaw law, int n_terms, const 
     least = error;
     best.parameters = start;
     best.found = std::move(found);
+    best.held_out = {};
     if (!best.found.has_values()) continue;
     best.held_out = cross_validate(problem, best.found, groups);
     best.held_out.start_error_percent.reset(); // no one's values

@@ -256,12 +256,13 @@ LeastSquares LeastSquaresProblem::fit(const VectorXd& start, const std::vector<b
   return found;
 }
 
-double prediction_error_percent(const Observations& data, const VectorXd& predicted,
-                                const std::vector<bool>& is_meant) {
+std::optional<double> prediction_error_percent(const Observations& data, const VectorXd& predicted,
+                                               const std::vector<bool>& is_meant) {
   const std::vector<Index> places = places_of(is_meant);
   const VectorXd deviations = data.deviations(places);
   const VectorXd error = (predicted(places) - data.values(places)).cwiseQuotient(deviations);
-  return 100 * error.norm() / data.values(places).cwiseQuotient(deviations).norm();
+  const double size = data.values(places).cwiseQuotient(deviations).norm();
+  return size > 0 ? std::optional(100 * error.norm() / size) : std::nullopt;
 }
 
 HeldOut cross_validate(const LeastSquaresProblem& problem, const LeastSquares& fitted,
@@ -282,8 +283,10 @@ HeldOut cross_validate(const LeastSquaresProblem& problem, const LeastSquares& f
       return held;
     }
     const LeastSquares without = problem.fit(fitted.parameters, is_used);
-    if (without.predicted.size() == 0) {
-      held.reason = fmt::format("without fold {}: {}", fold + 1, without.failure);
+    if (!without.has_values()) {
+      held.reason = fmt::format("without fold {}: {}", fold + 1,
+                                without.failure.empty() ? "the data left do not determine the parameters"
+                                                        : without.failure);
       return held;
     }
     for (std::size_t i = 0; i < is_used.size(); ++i)

@@ -85,8 +85,8 @@ class LeastSquaresProblem {
 
 /// The error of predictions, percent: root of the mean of ((prediction - value)/deviation)² over those data,
 /// by that of (value/deviation)².
-double prediction_error_percent(const Observations& data, const Eigen::VectorXd& predicted,
-                                const std::vector<bool>& is_meant);
+std::optional<double> prediction_error_percent(const Observations& data, const Eigen::VectorXd& predicted,
+                                               const std::vector<bool>& is_meant);
 
 /// What a fit errs by on data that it did not see.
 struct HeldOut {

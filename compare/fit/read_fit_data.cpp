@@ -203,14 +203,22 @@ FitData read_fit_data(const std::string& text, const std::string& name, const Fi
   FitData data;
   std::vector<DataColumn> columns;
   RowReader read(data, known, columns);
+  std::vector<std::string> names;
   const auto heading = [&](const cases::TextRow& row) {
     for (const std::string_view field : row.fields) {
       const std::string column(field);
+      if (cases::contains(names, column))
+        throw cases::InputError(fmt::format("{}\"{}\" is there twice", row.place(), column));
+      names.push_back(column);
       columns.push_back(column_of(column, known, row.place()));
     }
   };
   cases::read_rows(text, name, cases::Between::commas, heading, read);
   if (data.data.empty()) throw cases::InputError(name + ": has no rows of data");
+  for (const KnownCase& one : known)
+    if (std::none_of(data.states.begin(), data.states.end(),
+                     [&](const FitState& state) { return state.file == one.file; }))
+      throw cases::InputError(fmt::format("{}: has no data of {}", name, one.file));
   const auto n_with = static_cast<std::size_t>(std::count_if(
       data.data.begin(), data.data.end(), [](const Datum& d) { return d.deviation.has_value(); }));
   if (n_with != 0 && n_with != data.data.size())

@@ -55,7 +55,7 @@ Json held_out_to_json(const HeldOut& held) {
             {"reason", text_or_null(held.reason)},
             {"error_percent", held.error_percent},
             {"start_error_percent", held.start_error_percent}};
-  json["factor"] = held.error_percent && held.start_error_percent
+  json["factor"] = held.error_percent.value_or(0) > 0 && held.start_error_percent
                        ? Json(*held.start_error_percent / *held.error_percent)
                        : Json(nullptr);
   return json;
@@ -91,11 +91,16 @@ void write_held_out(std::ostream& out, const HeldOut& held) {
     write_paragraph(out, "held out: nothing. " + held.reason, "", "  ");
     return;
   }
-  std::string text = fmt::format("held out ({}): error {:.3g} %", held.how, held.error_percent.value_or(0));
-  if (held.start_error_percent)
-    text +=
-        fmt::format(", with the values of the start {:.3g} %: {:.3g} times as much",
-                    *held.start_error_percent, *held.start_error_percent / held.error_percent.value_or(0));
+  if (!held.error_percent) {
+    write_paragraph(
+        out, fmt::format("held out ({}): all of these data are 0, which have no relative error", held.how),
+        "", "  ");
+    return;
+  }
+  std::string text = fmt::format("held out ({}): error {:.3g} %", held.how, *held.error_percent);
+  if (held.start_error_percent && *held.error_percent > 0)
+    text += fmt::format(", with the values of the start {:.3g} %: {:.3g} times as much",
+                        *held.start_error_percent, *held.start_error_percent / *held.error_percent);
   write_paragraph(out, text, "", "  ");
 }
 

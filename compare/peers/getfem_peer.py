@@ -3,7 +3,7 @@
 Usage: getfem_peer.py SCENE ANSWER
 
 SCENE is a line of JSON that lists the arrays after it, little-endian doubles; mm, N, MPa. ANSWER has the same form.
-compare/peers/getfem_input.cpp writes the one and compare/peers/getfem.cpp reads the other.
+compare/peers/getfem.cpp writes the one and reads the other.
 
 Displacements are Q2 on hexahedra and P2 on tetrahedra. Where the pressure matters it is a field of its own, continuous
 and of degree 1 (Taylor and Hood).

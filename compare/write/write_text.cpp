@@ -47,17 +47,18 @@ std::string inverted_text(const cases::Solution& solution) {
 std::string effort_text(const Answer& side, const std::string& method) {
   const cases::Solution& s = side.solution;
   const bool is_relaxed = s.relaxation_iterations > 0;
-  const long n_iterations = is_relaxed          ? s.relaxation_iterations
+  const long n_iterations = is_relaxed       ? s.relaxation_iterations
                             : method.empty() ? s.newton_iterations
                                              : s.linear_iterations;
   const std::string kind = !method.empty() ? method + " " : is_relaxed ? "explicit " : "Newton ";
-  std::string text = fmt::format("{}, {} unknowns, {} {}iteration{}, {:.3g} s",
-                                 s.is_equilibrium() ? cases::name_of(s.status) : "not in equilibrium",
-                                 s.unknowns, n_iterations, kind, n_iterations == 1 ? "" : "s",
-                                 side.seconds());
+  std::string text =
+      fmt::format("{}, {} unknowns, {} {}iteration{}, {:.3g} s",
+                  s.is_equilibrium() ? cases::name_of(s.status) : "not in equilibrium", s.unknowns,
+                  n_iterations, kind, n_iterations == 1 ? "" : "s", side.seconds());
   if (!s.is_equilibrium()) text += fmt::format(", residual {:.1e}", s.residual);
   if (!method.empty() && s.trajectory)
-    text += fmt::format(", a step leaves {:.2g} % of the forces at most", 100 * s.trajectory->largest_residual);
+    text +=
+        fmt::format(", a step leaves {:.2g} % of the forces at most", 100 * s.trajectory->largest_residual);
   text += inverted_text(s);
   if (s.negative_eigenvalues.value_or(0) > 0)
     text += fmt::format(", unstable: {} negative eigenvalues of the tangent", *s.negative_eigenvalues);
