@@ -21,7 +21,7 @@ using cases::index;
 constexpr int most_motions = 20;
 /// The largest eigenvalue of the free stiffness, over its mean diagonal, that counts as zero. Rounding leaves
 /// 1e-16, and the lowest mode of a beam of a thousand cells has 1e-9.
-constexpr double no_stiffness = 1e-12;
+constexpr double zero_mode_part = 1e-12;
 
 /// The lattice of a scene, whose springs are without tension at rest.
 msm::Lattice lattice_at_rest(const cases::Scene& scene, const msm::SpringBody& springs) {
@@ -114,7 +114,7 @@ std::vector<MaterialOnMesh> look_at_materials(const cases::Scene& scene, const m
 
 FreeMotions free_motions(const msm::Lattice& lattice) {
   const Eigen::SparseMatrix<double> stiffness = msm::free_stiffness(lattice);
-  const double zero = no_stiffness * stiffness.diagonal().cwiseAbs().mean();
+  const double zero = zero_mode_part * stiffness.diagonal().cwiseAbs().mean();
   constexpr int n_rigid = 6;
   const int n_pairs = static_cast<int>(std::min<Eigen::Index>(stiffness.rows(), n_rigid + most_motions));
   FreeMotions found;
