@@ -252,7 +252,7 @@ TEST_CASE("a file that cannot be read is named, with the reason") {
   CHECK_THROWS_WITH(read_case(folder.path.string()), Catch::Contains("cannot be read"));
 }
 
-TEST_CASE("every case file of the project is read, and its regions exist") {
+TEST_CASE("every case file of the project is read, and its regions exist", "[long]") {
   int n = 0;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(SPRINGPROOF_SOURCE_DIR) / "cases")) {
     if (entry.path().extension() != ".toml") continue;
