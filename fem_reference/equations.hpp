@@ -74,7 +74,7 @@ class Assembly {
 
   const Discretisation& discretisation_;
   std::vector<std::unique_ptr<CellKernel>> kernels_; ///< one for each material
-  std::optional<mechanics::FadingMemory> memory_;    ///< of [n_of_memory()*cell + 7*q + c], see CellMemory
+  std::optional<mechanics::FadingMemory> memory_;    ///< at [n_of_memory()*cell + 7*q + c], see CellMemory
   Matrix tangent_;
   std::vector<double> internal_residual_, internal_slope_; ///< every cell's, as in CellResult
   std::vector<double> cell_displacement_;

@@ -275,6 +275,10 @@ int run_comparisons(const RunOptions& options) {
   // All are read before any is solved: a mistake in the last costs nothing.
   std::vector<Question> questions = read_questions(
       options.files, options.settings, {only, options.meshes, options.has_second_code() ? "" : options.peer});
+  for (const Question& question : questions)
+    if (const cases::Fem& fem = question.scene.definition.fem; fem.real_time && !options.peer.empty())
+      throw cases::InputError(fem.where,
+                              "real_time must be left out with --peer, which solves every equation");
   if (!options.out.empty()) { // for the .vtu
     cases::check_has_vtk();
     for (Question& question : questions) question.scene.definition.has_fields = true;

@@ -372,8 +372,10 @@ void write_judged_text(std::ostream& out, const JudgedCase& judged) {
   const std::string error = "model status error~%=error_percent{:.2f} +-=error_uncertainty{:.2f} at{:<} ",
                     of_motion = "surface~%=surface.error_percent{:.2f} left~%=residual_percent{:.2g} ",
                     others = "volume~%=volume_percent{:.2f} rests~s=rests_after{:.2f} ignores=ignored ",
-                    pace = "ms~a~step=milliseconds_a_step{:.2f} 60~Hz=keeps_60_hz real~time=in_real_time";
-  write_table(out, columns_of(error + (has_surface ? of_motion : others) + pace),
+                    pace = "ms~a~step=milliseconds_a_step{:.2f} real~time=in_real_time";
+  write_table(out,
+              columns_of(error + (has_surface ? of_motion : others) + pace +
+                         (has_surface ? " 60~Hz=keeps_60_hz" : "")),
               json_list(judged.rows, row_to_json));
   for (const JudgedRow& row : judged.rows)
     for (const std::string& note : notes_of(row)) write_wrapped(out, "    " + note, 6);

@@ -26,8 +26,8 @@ struct JudgedRow {
   std::optional<double> volume{};       ///< error of the body's volume, percent of the reference's
   std::optional<double> milliseconds_a_step{};
   std::optional<bool> in_real_time{}; ///< its step takes at most the time that it advances
-  std::optional<double> residual{};   ///< of a motion of springs: the largest that a step has left, relative
-  std::optional<SurfaceMotion> surface{}; ///< of a motion of a case with a [surface]
+  std::optional<double> residual{};   ///< in a motion of springs the largest that a step has left, relative
+  std::optional<SurfaceMotion> surface{}; ///< there in motions of cases with a [surface]
   std::optional<double> rests_after{};    ///< s of model time; absent where it has not come to rest
   bool is_at_rest = true;
   std::vector<std::string> warnings{};

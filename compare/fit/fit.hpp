@@ -62,7 +62,7 @@ Fit fit_curve(const msm::UniaxialCurve& curve, CurveLaw law, int n_terms, const 
 
 /// A datum of a model's answer to a case.
 struct Datum {
-  std::size_t state;                 ///< of FitData::states
+  std::size_t state;                 ///< index in FitData::states
   cases::Measure measure;            ///< as the case has it, or a marker's displacement
   double value;                      ///< in the measure's unit
   std::optional<double> deviation{}; ///< standard deviation
@@ -93,7 +93,7 @@ struct FitCases {
 /// Reads data: a table with a heading. Columns are measures of the case by their names, with standard
 /// deviations in a column `NAME sigma` or `sigma` for all of a row; keys of the case, such as
 /// load[0].value[2], which are set to the row's values; `case`, the case's name where there are several; or
-/// of markers x, y, z (mm, at rest) with any of ux, uy, uz. Empty fields are no data.
+/// x, y, z (mm, at rest) of markers, with any of ux, uy, uz. Empty fields are no data.
 /// @param name  the file's, for messages   @throws InputError with the line
 FitData read_fit_data(const std::string& text, const std::string& name, const FitCases& cases);
 

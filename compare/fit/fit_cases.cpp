@@ -103,8 +103,8 @@ struct Layout {
       state_of.insert(state_of.end(), 3 * data.states[s].field.size(), s);
     }
   }
-  std::vector<std::size_t> state_of; ///< of each value
-  std::vector<Index> field_begin;    ///< of each state
+  std::vector<std::size_t> state_of; ///< each value's state
+  std::vector<Index> field_begin;    ///< where each state's field begins
 };
 
 /// Root mean square of the data of one measure: what their errors are in proportion to.

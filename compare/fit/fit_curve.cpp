@@ -49,7 +49,7 @@ std::vector<std::vector<FreeParameter>> starts_of(CurveLaw law, int n_terms, dou
   for (const double first : {2., -2., 9., -9., 20., -20.}) {
     std::vector<FreeParameter> all;
     for (int i = 0; i < n_terms; ++i) all.push_back({fmt::format("mu[{}]", i), shear_modulus / n_terms});
-    for (int i = 0; i < n_terms; ++i) // of alternating signs, the later ones larger
+    for (int i = 0; i < n_terms; ++i) // signs alternate, the later ones are larger
       all.push_back({fmt::format("alpha[{}]", i), first * (i % 2 == 0 ? 1 : -1) * (1 + i / 2)});
     starts.push_back(all);
   }

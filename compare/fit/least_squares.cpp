@@ -54,7 +54,7 @@ double half_width_of(bool are_measured, Index degrees_of_freedom) {
 /// The model near some values of the parameters, whose coordinates Ceres changes.
 struct LeastSquaresProblem::Linearised {
   VectorXd values;          ///< empty: the model has no answer here
-  Eigen::MatrixXd jacobian; ///< of the values with respect to the coordinates
+  Eigen::MatrixXd jacobian; ///< derivatives of the values by the coordinates
 };
 
 struct LeastSquaresProblem::Cost : ceres::CostFunction {
@@ -177,7 +177,7 @@ void LeastSquaresProblem::judge(LeastSquares& found, const VectorXd& coordinates
   if (!data_.are_measured && n_free > 0)
     found.deviation_factor = residuals.norm() / std::sqrt(static_cast<double>(n_free));
   const double half_width = half_width_of(data_.are_measured, std::max<Index>(n_free, 1));
-  VectorXd sizes = VectorXd::Ones(n); // of the coordinates, one of a relative change
+  VectorXd sizes = VectorXd::Ones(n); // a coordinate's change that counts as relative change 1
   for (Index p = 0; p < n; ++p)
     if (parameters_[static_cast<std::size_t>(p)].lowest != 0)
       sizes[p] = std::max(std::abs(coordinates[p]), 1.);
@@ -237,7 +237,7 @@ LeastSquares LeastSquaresProblem::fit(const VectorXd& start, const std::vector<b
   options.initial_trust_region_radius = 1e6; // nearly Gauss and Newton's step
   // A thousandth of a standard deviation; sums of squares change by rounding of solves below that.
   options.function_tolerance = 1e-6;
-  options.parameter_tolerance = 1e-7; // of the noise of derivatives
+  options.parameter_tolerance = 1e-7; // what the noise of derivatives leaves
   const ceres::Solver::Summary summary = msm::minimise(problem, options);
   found.parameters = unscaled(coordinates);
   const Prediction last = predict(found.parameters);

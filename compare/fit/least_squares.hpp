@@ -40,8 +40,9 @@ struct LeastSquares {
   Eigen::VectorXd parameters;              ///< at the minimum
   Eigen::VectorXd lower, upper;            ///< ends of 95 % intervals; empty where the data leave some open
   std::vector<std::string> undetermined{}; ///< combinations of the parameters that the data leave open
-  /// Of the Jacobian whose columns are relative changes of the parameters, and whose rows are divided by the
-  /// data's standard deviations; descending. 1/s is the relative standard deviation of a combination.
+  /// Singular values belong to the Jacobian whose columns are relative changes of the parameters, and whose
+  /// rows are divided by the data's standard deviations; descending. 1/s is the relative standard deviation
+  /// of a combination.
   std::vector<double> singular_values{};
   Eigen::VectorXd predicted; ///< all data, those too that were left out
   double deviation_factor;   ///< standard deviations in units of Observations::deviations; 1 where measured

@@ -16,7 +16,7 @@ enum class Role { case_name, setting, coordinate, marker, measure, deviation };
 struct DataColumn {
   Role role;
   std::string name; ///< the key's, the measure's; of a deviation the measure's, or empty: all of the row
-  int axis = 0;     ///< of coordinates and markers
+  int axis = 0;     ///< a coordinate's or a marker's
 };
 
 /// Cases that rows are of, with their measures.

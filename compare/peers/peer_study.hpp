@@ -23,10 +23,10 @@ struct PeerStudy {
   std::string program;
   cases::Status status = cases::Status::skipped;
   std::string message; ///< why it was skipped or failed, or why there is no finer mesh
-  double seconds = 0;  ///< of all meshes
+  double seconds = 0;  ///< all meshes together
   std::vector<int> refine;
   std::vector<std::size_t> unknowns; ///< as many
-  std::vector<PeerLimit> limits;     ///< of the measures that displacements tell
+  std::vector<PeerLimit> limits;     ///< one for each measure that displacements tell
 };
 
 /// Asks GetFEM about a case that this program has solved. A solve that fails is a failed study.

@@ -110,7 +110,7 @@ class Lattices {
 /// The finite elements on the case's mesh with every equation solved.
 struct SolvedFem {
   cases::Solution solution;
-  std::optional<cases::Solution> half_step{}; ///< of a motion
+  std::optional<cases::Solution> half_step{}; ///< there in motions
   std::optional<cases::Solution> other_law{}; ///< by the law that a method of steps has of its own
   std::string no_other_law{};                 ///< why it is not known; empty where it is, or there is none
   bool has_other_law() const { return other_law.has_value(); }

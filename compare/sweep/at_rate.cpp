@@ -16,8 +16,8 @@ namespace {
 
 using Cells = std::array<int, 3>;
 
-constexpr double part_for_designs = 0.3; ///< of the budget, for designs and first frames
-constexpr double kept_designs = 0.25;    ///< of those with springs in equilibrium
+constexpr double part_for_designs = 0.3; ///< part of the budget for designs and first frames
+constexpr double kept_designs = 0.25;    ///< part of those with springs in equilibrium
 
 struct Candidate {
   std::size_t body;

@@ -86,7 +86,7 @@ struct Variant {
   /// On |imbalance| / |applied load|; CalculiX has its own, and a sweep at a rate 0: none.
   double tolerance = 1e-9;
   double step = 0;                  ///< a motion's, s; 0: at rest
-  std::optional<cases::RealTime> real_time{}; ///< of a sweep at a rate; then cells of 0 are a mesh's own
+  std::optional<cases::RealTime> real_time{}; ///< there in a sweep at a rate; then cells of 0 are a mesh's own
 };
 
 Family family_of(const Variant& variant);
@@ -209,7 +209,7 @@ enum class Processes { one_per_variant, this_one };
 /// What a sweep at a rate is asked for.
 struct Rate {
   double hertz;
-  double budget_seconds = 60; ///< of the search, beside its reference
+  double budget_seconds = 60; ///< the search's, beside its reference
 };
 
 /// Speed against error of one case: one plain record, which the writers read.

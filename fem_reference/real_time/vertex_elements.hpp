@@ -33,7 +33,8 @@ class RestCells {
 /// What a cell contributes: degree of freedom 3*vertex + component.
 struct CellForces {
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 24> force; ///< on the points, N: minus the energy's gradient
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 24, 24> tangent; ///< of minus that, N/mm
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 24, 24>
+      tangent; ///< minus the force's derivative, N/mm
 };
 using CellVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 24>;
 

@@ -27,7 +27,7 @@ class FadingMemory {
  public:
   struct Branch {
     double tau;  ///< s
-    Vector part; ///< of each number, from 0
+    Vector part; ///< each number's, from 0
   };
   explicit FadingMemory(const std::vector<Branch>& branches);
 

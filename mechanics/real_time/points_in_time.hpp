@@ -14,7 +14,7 @@ namespace springproof::mechanics {
 struct PointBody {
   std::vector<double> mass, mass_damping; ///< t and t/s, one per point
   ForcesAt forces;
-  FreeTangent tangent; ///< of Newton's method and of vibrations
+  FreeTangent tangent; ///< what Newton's method and vibrations take
 };
 
 /// The motion of points under the loads and supports of a scene, whose steps a method makes. Vectors have

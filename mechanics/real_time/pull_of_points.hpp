@@ -12,7 +12,7 @@ namespace springproof::mechanics {
 /// force = stiffness (target - mean), on the points by their weights.
 struct PullOfPoints {
   using Points = std::vector<Eigen::Vector3d>;
-  std::vector<std::pair<std::size_t, double>> weights; ///< of points, of sum 1
+  std::vector<std::pair<std::size_t, double>> weights; ///< by points, of sum 1
   double stiffness;                                    ///< N/mm
   Eigen::Vector3d target;                              ///< mm
 

@@ -112,7 +112,7 @@ class Xpbd {
   std::vector<HookeSpring> springs_;
   std::vector<std::ptrdiff_t> ends_of_colours_;
   std::vector<std::size_t> others_; ///< numbers in nodes_of_terms()
-  mechanics::Colours colours_;      ///< of others_
+  mechanics::Colours colours_;      ///< colours others_
   std::vector<double> multipliers_; ///< one for each of others_
   std::vector<Eigen::Vector4d> x_,  ///< positions, mm; the fourth entry is 0, so that packs load them whole
       mobility_;                    ///< D^-1, 0 on constrained components

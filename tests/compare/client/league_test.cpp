@@ -149,7 +149,7 @@ TEST_CASE("the parts of an error in a league add up to it") {
     REQUIRE(row.parts);
     REQUIRE(row.parts->sum());
     CHECK(std::abs(*row.parts->sum() - *row.worst) <= 0.1 * std::abs(*row.worst));
-    CHECK(row.parts->step.percent == 0.); // of a body at rest
+    CHECK(row.parts->step.percent == 0.); // a body at rest has none
     if (row.model == "many" || row.model == compare::springs_model)
       CHECK(std::abs(row.parts->iterations.percent.value()) < 1);
     if (row.model == "few") CHECK(std::abs(row.parts->iterations.percent.value()) > 10);

@@ -74,7 +74,7 @@ class ForceField:
         return total.value
 
     def change(self, dx):
-        """Of the forces by dx, at the state of the last forces."""
+        """Finds how the forces change along dx, at the state of the last forces."""
         total = Array(np.zeros((len(dx), 3)))
         self.addDForce({"kFactor": 1}, total, Array(dx))
         return total.value

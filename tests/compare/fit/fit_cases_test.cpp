@@ -57,7 +57,7 @@ std::string markers(double part, Random& random) {
   for (int i = 1; i <= 20; ++i) {
     const double at = i / 2., strain = 0.01 / true_modulus, along = strain * at, across = -true_ratio * along;
     const auto measured = [&](double value) { return value * (1 + part * noise(random)); };
-    const double sigma = std::max(part, 1e-6); // of no noise, too
+    const double sigma = std::max(part, 1e-6); // where there is no noise, too
     text << at << ',' << at << ',' << at << ',' << measured(across) << ',' << measured(across) << ','
          << measured(along) << ',' << sigma * std::abs(across) << ',' << sigma * std::abs(across) << ','
          << sigma * along << '\n';

@@ -112,7 +112,7 @@ TEST_CASE("halving finds the best of all, of which it follows a few through") {
     if (c % 5 != 1 && (best == n || all[c].error_percent < all[best].error_percent)) best = c;
   REQUIRE(!found.empty());
   CHECK(std::any_of(found.begin(), found.end(), [&](const auto& one) { return one.first == best; }));
-  CHECK(n_followed == 4); // of 29, halved three times: 15, 8, 4
+  CHECK(n_followed == 4); // 29 are halved three times: 15, 8, 4
   CHECK(dropped.size() + found.size() == 29);
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("halving goes back to those that it left behind where the better half 
             return round == 2 && c < 6 ? std::nullopt : std::optional(point(1 + double(c), 1 + double(c)));
           },
           [](int) { return true; }, [&](std::size_t c, const std::string&) { dropped.push_back(c); }});
-  REQUIRE(found.size() == 1); // of the worst half in the first round
+  REQUIRE(found.size() == 1); // the worst half goes in the first round
   CHECK(found[0].first == 6);
   CHECK(dropped == std::vector<std::size_t>{7});
 }

@@ -131,7 +131,7 @@ TEST_CASE("corotational elements are those of small strains where they turn litt
     const double hundredth = difference(0.01);
     CAPTURE(hundredth);
     CHECK(hundredth < 0.005);
-    CHECK(difference(0.001) < hundredth / 5); // of first order in the motion
+    CHECK(difference(0.001) < hundredth / 5); // first order in the motion
   }
 }
 
@@ -209,7 +209,7 @@ TEST_CASE("explicit steps keep the angular momentum of a free body", "[verificat
                             .follow({})
                             .trajectory->bodies;
     const std::vector<double> masses = masses_of(scene);
-    const auto at_step = [&](std::size_t step) { // of v = (x - x before)/h, times h
+    const auto at_step = [&](std::size_t step) { // with v = (x - x before)/h, times h
       Vector3d sum = Vector3d::Zero();
       for (std::size_t n = 0; n < masses.size(); ++n) {
         const Vector3d now = Vector3d(scene.mesh.nodes[n]) + bodies[step].displacement[n];

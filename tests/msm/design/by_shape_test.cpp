@@ -106,7 +106,7 @@ TEST_CASE("flat cells have the material's moduli in the mean too, which their sp
   const msm::ShapeFit found = msm::fit_by_shape(
       mesh,
       {std::vector<mechanics::ElasticModuli>(mesh.cells.size(), mechanics::elastic_moduli(material)), 0.8});
-  msm::Elasticity mean = msm::Elasticity::Zero(); // of cells of one volume
+  msm::Elasticity mean = msm::Elasticity::Zero(); // cells have one volume
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     mean += msm::cell_elasticity(found.cells[c], cases::cell_corners(mesh, c)) / double(mesh.cells.size());
   const msm::Elasticity wanted = msm::elasticity_at_rest(material).value();

@@ -101,7 +101,7 @@ TEST_CASE("inner nodes give up the energy of their equilibrium under a strain of
   const auto [found, is_stable] = msm::relax(lattice, is_inner, volume);
   CHECK(is_stable);
   CHECK(found.norm() > 1e-4);               // this mesh does relax
-  CHECK((found - released).norm() < 1e-11); // of moduli of 0.3 MPa, by rounding
+  CHECK((found - released).norm() < 1e-11); // rounding, beside moduli of 0.3 MPa
 }
 
 TEST_CASE("biquadratic springs have the material's moduli in every cell, and do not relax",

@@ -59,7 +59,7 @@ TEST_CASE("XPBD comes to implicit Euler's motion but for the turning of its grad
   };
   const double whole = left(1), tenth = left(0.1);
   CAPTURE(whole, tenth);
-  CHECK(tenth < whole / 5); // of first order in the motion
+  CHECK(tenth < whole / 5); // first order in the motion
   CHECK(left(1e-5) < 1e-5);
   const msm::Points limit = end_of(bar(StepMethod::xpbd, 3000, sideways));
   std::array<double, 3> error{};
@@ -193,7 +193,7 @@ TEST_CASE("forces of a method's steps keep the momentum of a free body", "[verif
 
 TEST_CASE("symplectic Euler keeps the angular momentum of a free body, implicit Euler damps it",
           "[verification]") {
-  // Of v = (x - x before)/h. A step of implicit Euler takes h sum m (v x v before) away from it.
+  // The velocity is (x - x before)/h. A step of implicit Euler takes h sum m (v x v before) away from it.
   const auto change = [](StepMethod method) {
     cases::Scene scene = free_bar(method, 1000);
     scene.definition.dynamics->step = 1e-4; // stable
