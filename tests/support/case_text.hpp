@@ -108,4 +108,48 @@ auto mistakes_in(const std::string& good, const Reader& read = read_any) {
   };
 }
 
+/// A beam that is let go under gravity, with a weight on its end. Line numbers matter.
+inline const std::string dynamic_case = R"(schema = 1
+name = 'beam'
+[body]
+shape = 'box'
+size = [100, 30, 30]
+cells = [20, 6, 6]
+[material]
+model = 'linear_elastic'
+youngs_modulus = 0.26
+poissons_ratio = 0.49
+density = 1070
+mass_damping = 0.5
+stiffness_damping = 0.001
+[dynamics]
+scheme = 'newmark'
+step = 0.01
+end = 2
+start = 'equilibrium'
+[[fixed]]
+region = 'x-'
+[[load]]
+kind = 'gravity'
+value = [0, 0, -9.81]
+[[load]]
+region = 'x+'
+kind = 'total_force'
+value = [0, 1, 0]
+history = [[0, 1], [0, 0]]
+[[mass]]
+region = 'x+ z+'
+value = 0.052
+[fem]
+mass = 'lumped'
+[msm]
+mass = 'uniform'
+[[measure]]
+name = 'drop'
+kind = 'displacement'
+node = 'x+ y- z+'
+component = 'z'
+over_time = 'frequency'
+)";
+
 } // namespace case_text
