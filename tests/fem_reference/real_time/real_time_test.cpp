@@ -4,6 +4,7 @@
 #include "cases/scene/loads.hpp"
 #include "fem_reference/model.hpp"
 #include "mechanics/larger.hpp"
+#include "tests/support/free_bar.hpp"
 #include "tests/support/scene_in_tetrahedra.hpp"
 
 #include <catch2/catch.hpp>
@@ -83,17 +84,8 @@ double apart(const Field& a, const Field& b) {
 const Vector3d force_on_free_bar(1e-4, 2e-4, -1e-4);
 
 /// A bar without supports in ten steps of a millisecond, drawn at a corner.
-cases::Scene free_bar(Element element) {
-  cases::Scene scene = bar(element);
-  scene.definition.material_dynamics.mass_damping = 0;
-  scene.constrained.clear();
-  scene.loads.clear();
-  cases::Scene::AppliedLoad load{{}, {{}, cases::loads::NodalForce{force_on_free_bar}}};
-  load.selection.nodes = {int(scene.mesh.nodes.size()) - 1};
-  scene.loads.push_back(load);
-  scene.definition.dynamics->step = 0.001;
-  scene.definition.dynamics->end = 0.01;
-  return scene;
+cases::Scene bar_in_flight(Element element) {
+  return free_bar::drawn(bar(element), force_on_free_bar);
 }
 
 /// Masses of a bar's nodes, lumped, t.
@@ -189,7 +181,7 @@ TEST_CASE("steps of elements keep the momentum of a free body", "[verification]"
   for (const ElementMethod method : methods) {
     CAPTURE(cases::name_of(method));
     // The linear solver has to end: what it leaves is no pair of forces.
-    const cases::Scene scene = free_bar(method == ElementMethod::xpbd ? Element::p1 : Element::q1);
+    const cases::Scene scene = bar_in_flight(method == ElementMethod::xpbd ? Element::p1 : Element::q1);
     const Field at = end_of(scene, steps(method, method == ElementMethod::xpbd ? 4 : 1000, 2));
     const std::vector<double> masses = masses_of(scene);
     Vector3d moved = Vector3d::Zero();
@@ -201,7 +193,7 @@ TEST_CASE("steps of elements keep the momentum of a free body", "[verification]"
 
 TEST_CASE("explicit steps keep the angular momentum of a free body", "[verification]") {
   for (const Element element : {Element::q1, Element::p1}) {
-    cases::Scene scene = free_bar(element);
+    cases::Scene scene = bar_in_flight(element);
     scene.definition.dynamics->step = 2e-4; // stable
     scene.definition.dynamics->end = 2e-3;
     scene.loads.front().load.history.points = {{0, 1}, {8e-4, 1}, {8e-4, 0}};

@@ -4,6 +4,7 @@
 #include "cases/case/read_case.hpp"
 #include "msm/design/design.hpp"
 #include "msm/real_time/colours.hpp"
+#include "tests/support/free_bar.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
@@ -153,17 +154,8 @@ TEST_CASE("the answer of a method is the same to the bit on any number of thread
 static const Vector3d force_on_free_bar(0.01, 0.02, -0.01);
 
 /// A bar without supports in ten steps of a millisecond, drawn at a corner.
-static cases::Scene free_bar(StepMethod method, int iterations) {
-  cases::Scene scene = bar(method, iterations, Vector3d::Zero());
-  scene.definition.material_dynamics.mass_damping = 0;
-  scene.constrained.clear();
-  scene.loads.clear();
-  cases::Scene::AppliedLoad load{{}, {{}, cases::loads::NodalForce{force_on_free_bar}}};
-  load.selection.nodes = {int(scene.mesh.nodes.size()) - 1};
-  scene.loads.push_back(load);
-  scene.definition.dynamics->step = 0.001;
-  scene.definition.dynamics->end = 0.01;
-  return scene;
+static cases::Scene bar_in_flight(StepMethod method, int iterations) {
+  return free_bar::drawn(bar(method, iterations, Vector3d::Zero()), force_on_free_bar);
 }
 
 TEST_CASE("forces of a method's steps keep the momentum of a free body", "[verification]") {
@@ -171,7 +163,7 @@ TEST_CASE("forces of a method's steps keep the momentum of a free body", "[verif
     CAPTURE(name);
     const StepMethod method = *cases::value_of<StepMethod>(name);
     // Implicit Euler's linear solver has to end: what it leaves is no pair of forces.
-    cases::Scene scene = free_bar(method, method == StepMethod::implicit_euler ? 1000 : 4);
+    cases::Scene scene = bar_in_flight(method, method == StepMethod::implicit_euler ? 1000 : 4);
     scene.definition.msm.real_time->substeps = 2;
     const msm::Points at = end_of(scene);
     const std::vector<double> masses = cases::point_masses(scene);
@@ -195,7 +187,7 @@ TEST_CASE("symplectic Euler keeps the angular momentum of a free body, implicit 
           "[verification]") {
   // The velocity is (x - x before)/h. A step of implicit Euler takes h sum m (v x v before) away from it.
   const auto change = [](StepMethod method) {
-    cases::Scene scene = free_bar(method, 1000);
+    cases::Scene scene = bar_in_flight(method, 1000);
     scene.definition.dynamics->step = 1e-4; // stable
     scene.definition.dynamics->end = 1e-3;
     scene.loads.front().load.history.points = {{0, 1}, {4e-4, 1}, {4e-4, 0}};
