@@ -109,7 +109,9 @@ std::vector<mechanics::FadingMemory::Branch> branches_of(const cases::Scene& sce
       for_each_pair(lattice, stiffened, [&](const auto& term, const auto& with, Eigen::Index first) {
         using Term = std::decay_t<decltype(term)>;
         if (is_volume<Term> == of_volumes)
-          parts.segment(first, n_forces<Term>).setConstant(stiffness_of(with) / stiffness_of(term) - 1);
+          // a spring in which two cells' parts cancel has none to remember
+          parts.segment(first, n_forces<Term>)
+              .setConstant(stiffness_of(term) != 0 ? stiffness_of(with) / stiffness_of(term) - 1 : 0);
       });
     };
     add_parts(with_g, false);
@@ -141,8 +143,8 @@ void SpringMemory::set_step(double duration) {
 Vector SpringMemory::forces_at(const Points& displacement) const {
   Vector all(count_forces(elastic_));
   for_each_pair(elastic_, elastic_, [&](const auto& term, const auto&, Eigen::Index first) {
-    all.segment(first, n_forces<std::decay_t<decltype(term)>>) =
-        forces_of(term, seen(nodes_of(term), elastic_.rest, displacement));
+    constexpr Eigen::Index n = n_forces<std::decay_t<decltype(term)>>;
+    all.segment<n>(first) = forces_of(term, seen(nodes_of(term), elastic_.rest, displacement));
   });
   return all;
 }

@@ -64,7 +64,10 @@ CellCorners child_corners(CellShape shape, std::size_t child) {
     for (const auto& [a, b] : tetrahedron_children[child]) corners.push_back((vertex(a) + vertex(b)) / 2);
     return corners;
   }
-  const auto vertex = [](std::size_t v) { return Vector3d(v & 1U, v >> 1U & 1U, v >> 2U); };
+  const auto vertex = [](std::size_t v) {
+    return Vector3d(static_cast<double>(v & 1U), static_cast<double>(v >> 1U & 1U),
+                    static_cast<double>(v >> 2U));
+  };
   for (std::size_t v = 0; v < 8; ++v) corners.push_back((vertex(v) + vertex(child)) / 2);
   return corners;
 }

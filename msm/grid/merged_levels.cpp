@@ -70,9 +70,6 @@ using Block = std::array<Eigen::Vector4f, 3>;          ///< columns of a 3x3 mat
 Eigen::Map<Nodes> at_nodes(Field<float>& field) {
   return {field.data(), 4, field.size() / 4};
 }
-Eigen::Map<const Nodes> at_nodes(const Field<float>& field) {
-  return {field.data(), 4, field.size() / 4};
-}
 Eigen::Vector4f product(const Block& block, const float* at) {
   return block[0] * at[0] + block[1] * at[1] + block[2] * at[2];
 }
