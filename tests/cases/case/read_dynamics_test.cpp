@@ -214,6 +214,8 @@ TEST_CASE("what has no meaning in a static case, or none in a dynamic one, is re
   const auto refused = mistakes_in(good_case);
   refused("poissons_ratio = 0.35", density + "\nmass_damping = 1", 13, "material.mass_damping",
           {"[dynamics]"});
+  refused("poissons_ratio = 0.35", density + "\nprony = [{ g = 0.2, tau = 0.1 }]", 13, "material.prony",
+          {"without [dynamics]"});
   refused("value = [0.002, 0, 0.0]", "value = [0.002, 0, 0.0]\nhistory = { step = 1 }", 18, "load[0].history",
           {"[dynamics]"});
   refused("toward = 'x'", "toward = 'x'\nover_time = 'peak'", 32, "measure[0].over_time", {"[dynamics]"});
