@@ -126,6 +126,16 @@ void settle_element(Case& definition, bool is_tetrahedron) {
          alternatives(allowed), cells);
 }
 
+std::string steps_needed(ElementMethod method, const Material& material) {
+  const std::string model = name_of(material);
+  if (method != ElementMethod::total_lagrangian_explicit && model != LinearElastic::name)
+    return "of method = \"" + name_of(ElementMethod::total_lagrangian_explicit) + "\" with model = \"" +
+           model + "\": the laws of the others are those of \"" + LinearElastic::name + "\" materials";
+  return needs_pressure(material)
+             ? "left out with an ogden material that has no bulk_modulus: its elements have no pressure"
+             : "";
+}
+
 bool needs_pressure(const Material& material) {
   const Ogden* ogden = std::get_if<Ogden>(&material);
   return ogden != nullptr && !ogden->bulk_modulus;

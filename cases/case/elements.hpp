@@ -2,6 +2,8 @@
 
 #include "cases/case/case.hpp"
 
+#include <string>
+
 /// What of an element decides where it may be used.
 namespace springproof::cases {
 
@@ -29,6 +31,9 @@ Element default_element(const Fem& fem, const std::vector<Material>& materials, 
 /// Gives a case that names no element the default of its mesh's shape.
 /// @throws InputError if it names an element of the other shape, or one that its dampers do not go with
 void settle_element(Case& definition, bool is_tetrahedron);
+
+/// What the real_time of elements must be with a material that a method does not take; empty: it takes it.
+std::string steps_needed(ElementMethod method, const Material& material);
 
 /// Whether elements without a pressure lock so badly with a material that they are refused.
 bool needs_pressure(const Material& material);

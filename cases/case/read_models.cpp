@@ -105,17 +105,9 @@ void check_real_time(Table& table, const Fem& fem, const Case& definition) {
     entry.refuse("left out beside refine and dynamics.start = \"equilibrium\": refine the body's own mesh");
   if (table.has("mass") && fem.mass == ElementMass::consistent)
     entry.refuse("left out beside mass = \"consistent\": its masses are lumped");
-  const ElementMethod method = fem.real_time->method;
-  for (const Material& material : materials_of(definition)) {
-    const std::string model = name_of(material);
-    if (method != ElementMethod::total_lagrangian_explicit && model != LinearElastic::name)
-      entry.refuse(fmt::format("of method = \"{}\" with model = \"{}\": the laws of the others are those of "
-                               "\"{}\" materials",
-                               name_of(ElementMethod::total_lagrangian_explicit), model,
-                               LinearElastic::name));
-    if (needs_pressure(material))
-      entry.refuse("left out with an ogden material that has no bulk_modulus: its elements have no pressure");
-  }
+  for (const Material& material : materials_of(definition))
+    if (const std::string needed = steps_needed(fem.real_time->method, material); !needed.empty())
+      entry.refuse(needed);
 }
 
 Fem read_fem(Table& table, const Case& definition) {
@@ -345,8 +337,8 @@ Msm read_msm(Table& table, const Case& definition) {
   table.refuse_unless(definition.dynamics.has_value(), {"iterations_per_step"},
                       "left out without [dynamics]");
   msm.iterations_per_step = table.optional("iterations_per_step", up_to_1000);
-  msm.real_time = table.section_if_there(
-      "real_time", [&](Table& section) { return read_steps(section, definition); });
+  msm.real_time =
+      table.section_if_there("real_time", [&](Table& section) { return read_steps(section, definition); });
   if (msm.real_time) check_real_time(table, msm, definition);
   msm.accepted = table.optional("accept", read_names<Doubt>).value_or(std::vector<Doubt>{});
   const std::string needed = design_needed(msm, material);

@@ -101,18 +101,23 @@ int run(const InteractOptions& options) {
   if (n_mpi_ranks() > 1) throw cases::InputError("interact runs on one rank");
   cases::check_has_vtk(); // for the drawn surface
   cases::Case definition = cases::read_case(options.file, options.settings);
-  if (!options.method.empty()) {
-    const std::vector<std::string> ignored = set_steps(definition, method_of(options.method, {}).real_time);
-    if (!ignored.empty()) print(std::cerr, "{} ignores {}\n", options.method, fmt::join(ignored, "; "));
-  }
-  const cases::Scene scene = make_scene_within_memory(definition);
+  std::optional<Steps> steps;
+  if (!options.method.empty()) steps = method_of(options.method, {}).steps;
+  const auto* const of_elements = steps ? std::get_if<cases::ElementRealTime>(&*steps) : nullptr;
+  std::vector<std::string> ignored;
+  if (steps && !of_elements) ignored = set_steps(definition, std::get<cases::RealTime>(*steps));
+  cases::Scene scene = make_scene_within_memory(definition);
+  if (of_elements) ignored = set_steps(scene, *of_elements);
+  if (!ignored.empty()) print(std::cerr, "{} ignores {}\n", options.method, fmt::join(ignored, "; "));
   cases::refuse_network(scene.definition, "interact, which pulls at a surface",
                         "run --out --report shows its motion");
   check_memory(options.file, {estimate_springs(size_of(scene))}, memory_limit());
   claim_folder(options.out);
   std::unique_ptr<PageServer> server; // the simulation's thread sends to it, and is stopped before it
   Simulation simulation(
-      scene, {static_cast<std::size_t>(options.n_spheres), 1e-3 * options.stiffness, options.n_threads},
+      scene,
+      {static_cast<std::size_t>(options.n_spheres), 1e-3 * options.stiffness, options.n_threads,
+       of_elements ? cases::Side::fem : cases::Side::msm},
       [&](std::shared_ptr<const std::string> frame) { server->send_frame(std::move(frame)); });
   ServedPage page;
   page.html = page_of(scene.definition);
@@ -154,12 +159,14 @@ int run(const InteractOptions& options) {
 void add_interact_command(CLI::App& program, Action& chosen) {
   const auto [command, options] = add_command<InteractOptions>(
       program, chosen, "interact",
-      "a dynamic case's springs on a page of this machine, to turn and to pull in real time", run);
+      "a dynamic case's springs or elements on a page of this machine, to turn and to pull in real time",
+      run);
   command->add_option("case", options->file, "case file (TOML) with [dynamics]")->required();
   add_set_option(*command, options->settings, "override a key of the case: dynamics.step=0.02");
   command->add_option(
       "--method", options->method,
-      "NAME[:ITERATIONS[:SUBSTEPS]]: a method of [msm] real_time, in place of the case's steps");
+      "NAME[:ITERATIONS[:SUBSTEPS]]: a method of [msm] real_time, in place of the case's steps; fem.NAME: "
+      "the finite elements by one of [fem] real_time");
   command->add_option("--port", options->port, "of 127.0.0.1; 0: any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
@@ -169,7 +176,7 @@ void add_interact_command(CLI::App& program, Action& chosen) {
   command->add_option("--spheres", options->n_spheres, "that cover the surface, to take hold of")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command->add_option("--threads", options->n_threads, "of the springs' multigrid path")
+  command->add_option("--threads", options->n_threads, "of the springs' multigrid path, and of methods")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   command->add_flag("--stay", options->stays, "go on when the page is closed, until Ctrl-C");

@@ -28,7 +28,7 @@ std::vector<Client> clients_of(const JudgeOptions& options) {
   for (const std::string& argument : options.clients) {
     clients.push_back(client_of(argument));
     const std::string& name = clients.back().name;
-    if (name == fem_model || name == springs_model || cases::value_of<cases::StepMethod>(name))
+    if (name == fem_model || name == springs_model || method_called(name))
       throw cases::InputError("--client: \"" + name + "\" is the name of a row of ours; give another");
     if (std::count_if(clients.begin(), clients.end(), [&](const Client& one) { return one.name == name; }) >
         1)
@@ -77,8 +77,8 @@ void add_judge_command(CLI::App& program, Action& chosen) {
       "be repeated");
   command->add_option(
       "--method", options->methods,
-      "NAME[:ITERATIONS[:SUBSTEPS]]: a method of [msm] real_time that steps our springs; may be "
-      "repeated");
+      "NAME[:ITERATIONS[:SUBSTEPS]]: a method of [msm] real_time that steps our springs, or fem.NAME of "
+      "[fem] real_time that steps elements; may be repeated");
   ClientBudget& budget = options->budget;
   add_step_options(*command, budget);
   command->add_option("--end", budget.model_time, "time within which a body is to come to rest, s")

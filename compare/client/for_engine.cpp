@@ -267,7 +267,7 @@ EngineDesign design_for_engine(const EngineRequest& request) {
   found.judged = judge.own(found.budget);
   std::vector<JudgedRow>& rows = found.judged->rows;
   if (request.client || found.budget.iterations > 0) {
-    rows.push_back(client->method ? judge.step(real_time_in(*client->method, found.budget), found.budget)
+    rows.push_back(client->method ? judge.step(steps_in(*client->method, found.budget), found.budget)
                                   : judge.ask({client->name, client->words}, found.budget));
     return found;
   }

@@ -1,9 +1,9 @@
 #include "compare/client/judge.hpp"
 
 #include "cases/case/error.hpp"
-#include "cases/case/input_file.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
+#include "compare/solve/solve.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/table/table.hpp"
 #include "compare/write/quote.hpp"
@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <numeric>
 #include <utility>
+#include <variant>
 
 namespace springproof::compare {
 
@@ -106,19 +108,42 @@ JudgedRow fem_row(const Basis& basis) {
   return row;
 }
 
+/// How a model is solved within limits, whether it may be left with a residual, and whose parts are not
+/// known.
+struct OwnModel {
+  std::function<Answer(const mechanics::StepLimits&)> solve;
+  bool is_solved;
+  std::string without_parts{}; ///< why; empty: its parts are told
+};
+
+OwnModel springs_of(const cases::Scene& scene) {
+  return {[&scene](const mechanics::StepLimits& limits) {
+            std::optional<msm::DesignResult> design;
+            return solve_springs(scene, 1, design, limits);
+          },
+          !has_iteration_limit(scene.definition.msm)};
+}
+
+OwnModel elements_of(const cases::Scene& scene) {
+  return {[&scene](const mechanics::StepLimits& limits) {
+            return solve_stepped_fem(scene, fem_reference::StepBy::method, limits);
+          },
+          false, "stepped elements have them by run --error-budget"};
+}
+
 /// What holds for clients holds for our steps in real time: a limit on wall-clock time, and mean places of a
 /// body that still moves at the end.
-JudgedRow springs_row(const Basis& basis, const ClientBudget& budget) {
-  std::optional<msm::DesignResult> design;
+JudgedRow own_row(const Basis& basis, const OwnModel& model, const ClientBudget& budget) {
   std::optional<mechanics::CameToRest> moving;
   bool is_late = false;
-  msm::StepLimits limits;
+  mechanics::StepLimits limits;
   limits.should_stop = [&, stopwatch = Stopwatch()] {
     return is_late = stopwatch.seconds() > budget.seconds;
   };
   limits.tell_moving = [&](const mechanics::CameToRest& body) { moving = body; };
-  const Answer answer = solve_springs(basis.scene, 1, design, limits);
-  JudgedRow row = row_of(springs_model, basis, answer, !has_iteration_limit(basis.scene.definition.msm));
+  const Answer answer = model.solve(limits);
+  JudgedRow row = row_of(springs_model, basis, answer, model.is_solved);
+  if (row.parts && !model.without_parts.empty()) row.parts = without_parts(row.worst_at, model.without_parts);
   if (is_late) row.failure += fmt::format(": it took longer than {:g} s", budget.seconds);
   row.milliseconds_a_step = milliseconds_a_step(answer);
   if (moving && row.failure.empty()) {
@@ -131,24 +156,25 @@ JudgedRow springs_row(const Basis& basis, const ClientBudget& budget) {
   return row;
 }
 
-JudgedRow stepped_row(const Basis& basis, const cases::RealTime& real_time, const ClientBudget& budget) {
+JudgedRow stepped_row(const Basis& basis, const Steps& steps, const ClientBudget& budget) {
   cases::Scene scene = basis.scene;
-  const std::string name = cases::name_of(real_time.method);
-  const std::vector<std::string> ignored = set_steps(scene.definition, real_time);
+  const std::string name = name_of(method_of(steps));
   JudgedRow row{name};
+  std::vector<std::string> ignored;
   try {
     if (!scene.definition.material_dynamics.density)
       throw cases::InputError("the case has no material.density, which steps in time need");
-    row = springs_row({scene, basis.fem, basis.parts, basis.lattices}, budget);
+    const bool is_of_springs = std::holds_alternative<cases::RealTime>(steps);
+    ignored = is_of_springs ? set_steps(scene.definition, std::get<cases::RealTime>(steps))
+                            : set_steps(scene, std::get<cases::ElementRealTime>(steps));
+    row = own_row({scene, basis.fem, basis.parts, basis.lattices},
+                  is_of_springs ? springs_of(scene) : elements_of(scene), budget);
   } catch (const cases::InputError& error) {
     row.failure = error.what();
   }
   row.model = name;
-  Json settings{{"iterations", real_time.iterations}, {"substeps", real_time.substeps}};
-  if (real_time.method == cases::StepMethod::symplectic_euler) settings.erase("iterations");
-  if (!scene.definition.dynamics) settings.update({{"step", real_time.step}, {"damping", real_time.damping}});
-  row.client = Introduction{"springproof", program_version(), cases::name_of(real_time.method),
-                            settings.dump(), ignored};
+  row.client = Introduction{"springproof", program_version(), name,
+                            settings_of(steps, scene.definition).dump(), ignored};
   return row;
 }
 
@@ -173,32 +199,6 @@ JudgedRow client_row(const Basis& basis, const Client& client, const ClientBudge
 }
 
 } // namespace
-
-std::vector<std::string> set_steps(cases::Case& definition, const cases::RealTime& real_time) {
-  using cases::Scheme;
-  std::vector<std::string> ignored;
-  definition.msm.real_time = real_time;
-  definition.msm.solver = cases::Solver::newton;
-  definition.msm.iterations_per_step.reset();
-  definition.msm.relaxation.reset();
-  if (definition.msm.mass == cases::PointMass::consistent) {
-    definition.msm.mass = cases::PointMass::cells;
-    if (definition.dynamics) ignored.push_back("masses that are not lumped");
-  }
-  if (definition.dynamics) {
-    Scheme& scheme = definition.dynamics->scheme.scheme;
-    if (scheme != Scheme::implicit_euler) ignored.push_back("scheme " + cases::name_of(scheme));
-    scheme = Scheme::implicit_euler;
-  }
-  double damping = std::exchange(definition.material_dynamics.stiffness_damping, 0);
-  for (cases::RegionMaterial& region : definition.region_materials)
-    damping += std::exchange(region.dynamics.stiffness_damping, 0);
-  if (damping > 0) ignored.push_back("stiffness_damping");
-  if (cases::has_memory(definition)) ignored.push_back("prony");
-  definition.material_dynamics.prony.clear();
-  for (cases::RegionMaterial& region : definition.region_materials) region.dynamics.prony.clear();
-  return ignored;
-}
 
 std::string JudgedRow::status() const {
   if (!failure.empty()) return "failed";
@@ -230,7 +230,7 @@ const SpringLattices* Judge::lattices() const {
 JudgedCase Judge::own(const ClientBudget& budget) const {
   JudgedCase judged{scene_.definition.name, scene_.definition.dynamics.has_value(), false, {}};
   judged.rows = {fem_row({scene_, fem_, parts_, lattices()}),
-                 springs_row({scene_, fem_, parts_, lattices()}, budget)};
+                 own_row({scene_, fem_, parts_, lattices()}, springs_of(scene_), budget)};
   for (JudgedRow& row : judged.rows) {
     say_whether_in_time(row, scene_, budget);
     for (const MeasuredValue& one : row.measures)
@@ -245,55 +245,19 @@ JudgedRow Judge::ask(const Client& client, const ClientBudget& budget) const {
   return row;
 }
 
-JudgedRow Judge::step(const cases::RealTime& real_time, const ClientBudget& budget) const {
-  JudgedRow row = stepped_row({scene_, fem_, parts_, lattices()}, real_time, budget);
+JudgedRow Judge::step(const Steps& steps, const ClientBudget& budget) const {
+  JudgedRow row = stepped_row({scene_, fem_, parts_, lattices()}, steps, budget);
   say_whether_in_time(row, scene_, budget);
   return row;
-}
-
-cases::RealTime real_time_in(cases::StepMethod method, const ClientBudget& budget) {
-  cases::RealTime real_time;
-  real_time.method = method;
-  if (budget.iterations > 0) real_time.iterations = budget.iterations;
-  real_time.step = budget.step;
-  real_time.end = budget.model_time;
-  return real_time;
-}
-
-NamedMethod method_of(const std::string& argument, const ClientBudget& budget) {
-  const auto refuse = [&](const std::string& reason) -> cases::InputError {
-    return cases::InputError(fmt::format("--method: {} {}; give NAME, NAME:ITERATIONS, "
-                                         "NAME:ITERATIONS:SUBSTEPS or NAME::SUBSTEPS",
-                                         one_line(argument), reason));
-  };
-  std::vector<std::string> parts(1);
-  for (const char c : argument) c == ':' ? void(parts.emplace_back()) : parts.back().push_back(c);
-  const auto method = cases::value_of<cases::StepMethod>(parts.front());
-  if (!method)
-    throw refuse(fmt::format("names no method of [msm] real_time: {}",
-                             fmt::join(cases::all_names<cases::StepMethod>(), ", ")));
-  NamedMethod named{argument, real_time_in(*method, budget)};
-  const auto number = [&](const std::string& text, const char* what, int most) {
-    const auto value = cases::number_in<int>(text);
-    if (!value || *value < 1 || *value > most)
-      throw refuse(fmt::format("has \"{}\" {}, may have 1 to {}", one_line(text), what, most));
-    return *value;
-  };
-  if (parts.size() > 3) throw refuse("has more than two numbers");
-  const bool has_iterations = parts.size() > 1 && !(parts.size() == 3 && parts[1].empty());
-  if (has_iterations && cases::is_explicit(*method)) throw refuse("is explicit and has no iterations");
-  if (has_iterations) named.real_time.iterations = number(parts[1], "iterations", 100000);
-  if (parts.size() > 2) named.real_time.substeps = number(parts[2], "substeps", 1000);
-  return named;
 }
 
 JudgedCase judge_clients(const cases::Scene& scene, const std::vector<NamedMethod>& methods,
                          const std::vector<Client>& clients, const ClientBudget& budget, int meshes) {
   const Judge judge(scene, meshes);
   JudgedCase judged = judge.own(budget);
-  for (const auto& [name, real_time] : methods) {
-    judged.rows.push_back(judge.step(real_time, budget));
-    judged.rows.back().model = name;
+  for (const NamedMethod& method : methods) {
+    judged.rows.push_back(judge.step(method.steps, budget));
+    judged.rows.back().model = method.name;
   }
   for (const Client& client : clients) judged.rows.push_back(judge.ask(client, budget));
   return judged;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/client/ask_client.hpp"
+#include "compare/client/methods.hpp"
 #include "compare/study/error_budget.hpp"
 #include "compare/study/study.hpp"
 #include "compare/table/json.hpp"
@@ -59,8 +59,8 @@ class Judge {
   /// @throws cases::InputError when there are no springs
   JudgedCase own(const ClientBudget& budget) const;
   JudgedRow ask(const Client& client, const ClientBudget& budget) const;
-  /// Our springs, stepped by a method: what it ignores of the case is said, as a client's.
-  JudgedRow step(const cases::RealTime& real_time, const ClientBudget& budget) const;
+  /// Our springs or elements, stepped by a method: what it ignores of the case is said, as a client's.
+  JudgedRow step(const Steps& steps, const ClientBudget& budget) const;
 
  private:
   cases::Scene scene_;
@@ -69,23 +69,6 @@ class Judge {
   const SpringLattices* lattices() const;    ///< null: there are none
   std::optional<SpringLattices> lattices_{}; ///< where rows tell their parts, of a body at rest
 };
-
-/// Steps by a method within a budget, but for its substeps.
-cases::RealTime real_time_in(cases::StepMethod method, const ClientBudget& budget);
-
-/// Gives a case steps that it may not have asked for.
-/// @return what of it they ignore
-std::vector<std::string> set_steps(cases::Case& definition, const cases::RealTime& real_time);
-
-/// A method as a command line has it.
-struct NamedMethod {
-  std::string name; ///< as it was typed
-  cases::RealTime real_time;
-};
-
-/// `NAME[:ITERATIONS[:SUBSTEPS]]` of the command line; what it leaves out is the budget's.
-/// @throws cases::InputError saying what is allowed
-NamedMethod method_of(const std::string& argument, const ClientBudget& budget);
 
 /// Own rows, and one for each method and client.
 JudgedCase judge_clients(const cases::Scene& scene, const std::vector<NamedMethod>& methods,

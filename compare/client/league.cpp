@@ -83,9 +83,9 @@ std::vector<JudgedRow> rows_of(const Judge& judge, const LeagueClient& client, c
     ClientBudget budget = league.budget;
     budget.iterations = settings.iterations;
     if (client.method) {
-      cases::RealTime real_time = real_time_in(*client.method, budget);
-      if (settings.substeps > 0) real_time.substeps = settings.substeps;
-      JudgedRow row = judge.step(real_time, budget);
+      Steps steps = steps_in(*client.method, budget);
+      if (settings.substeps > 0) std::visit([&](auto& by) { by.substeps = settings.substeps; }, steps);
+      JudgedRow row = judge.step(steps, budget);
       row.model = client.name;
       return row;
     }

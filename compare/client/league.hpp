@@ -11,7 +11,7 @@ namespace springproof::compare {
 struct LeagueClient {
   std::string name;
   std::vector<std::string> words; ///< its command; none: a method of ours
-  std::optional<cases::StepMethod> method{};
+  std::optional<AnyMethod> method{};
   std::vector<std::string> needs; ///< files or folders without which it is skipped
   // What is tried beside the defaults: all combinations of these.
   std::vector<int> iterations;                   ///< 0: the client's default

@@ -39,7 +39,8 @@ std::vector<std::string> words_in(const fs::path& folder, const std::string& com
 LeagueClient read_client(cases::Table& table, const fs::path& folder) {
   LeagueClient client;
   client.name = table.required("name", cases::read_text);
-  client.method = table.optional("method", cases::read_name<cases::StepMethod>);
+  client.method = table.optional(
+      "method", [](const cases::Entry& entry) { return *method_called(entry.word(method_names())); });
   table.refuse_unless(!client.method, {"command", "needs", "options"},
                       "left out beside method, which is ours");
   table.refuse_unless(client.method.has_value(), {"substeps"}, "left out without method");

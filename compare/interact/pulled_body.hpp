@@ -1,19 +1,18 @@
 #pragma once
 
-#include "compare/solve/springs.hpp"
-#include "mechanics/dynamics/time_integrator.hpp"
+#include "compare/interact/moved_body.hpp"
 #include "mechanics/surface/embedded_surface.hpp"
 #include "mechanics/surface/rays.hpp"
-#include "msm/model.hpp"
 
 #include <memory>
 
 namespace springproof::compare {
 
 struct PullSettings {
-  std::size_t n_spheres = 271; ///< that cover the surface, as in the thesis (section 6.2.2.3)
-  double stiffness = 0.1;      ///< N/mm, of the spring between the pointer and the body, > 0
-  int n_threads = 1;           ///< threads of the multigrid path
+  std::size_t n_spheres = 271;          ///< that cover the surface, as in the thesis (section 6.2.2.3)
+  double stiffness = 0.1;               ///< N/mm, of the spring between the pointer and the body, > 0
+  int n_threads = 1;                    ///< threads of the multigrid path, and of methods
+  cases::Side model = cases::Side::msm; ///< fem: the elements, by [fem] real_time
 };
 
 /// What went wrong in the steps of a body since it was made.
@@ -24,13 +23,15 @@ struct StepTroubles {
   double largest_residual = 0; ///< the most that one was left with, relative to the forces of the motion
 };
 
-/// A dynamic case's springs, moved step by step while a spring pulls on a spherical part of their surface.
-/// The pulling spring is solved implicitly with the body, so any stiffness is stable. Its force in a step is
-/// known after the step; applied as a load of that step it gives the same solution, where a step is solved. A
-/// recording of forces can therefore be replayed in any model, and by any method.
+/// A dynamic case's springs, or its elements by a method of simulators, moved step by step while a spring
+/// pulls on a spherical part of their surface. The pulling spring is solved implicitly with the body, so any
+/// stiffness is stable. Its force in a step is known after the step; applied as a load of that step it gives
+/// the same solution, where a step is solved. A recording of forces can therefore be replayed in any model,
+/// and by any method.
 class PulledBody {
  public:
-  /// @throws InputError when the case has no [dynamics], or its springs cannot be designed or start
+  /// @throws InputError when the case has no [dynamics], or its springs cannot be designed or start, its
+  /// elements not be stepped
   PulledBody(const cases::Scene& scene, const PullSettings& settings);
 
   /// Takes hold of the sphere that a ray meets first, if it meets one.
@@ -55,29 +56,25 @@ class PulledBody {
   const StepTroubles& troubles() const { return troubles_; }
   /// What the last step was left with, relative to the forces of the motion.
   double residual() const { return motion_->work().residual; }
-  const msm::Points& displacement(); ///< mm, of all nodes, now
-  int n_inverted();                  ///< cells, now
-  /// How a step is made: "xpbd, 10 iterations, 1 substep".
-  std::string method_text() const;
+  const MovedBody::Points& displacement(); ///< mm, of all nodes, now
+  int n_inverted();                        ///< cells, now
+  std::string method_text() const { return body_->method_text(); }
   std::size_t n_unknowns() { return body_->motion().n_unknowns(); }
 
  private:
   const cases::Scene& scene_;
   PullSettings settings_;
-  std::unique_ptr<msm::MovingBody> body_;
-  mechanics::IntegrationSettings steps_;
+  std::unique_ptr<MovedBody> body_;
   mechanics::EmbeddedSurface surface_;
   mechanics::Spheres spheres_;
   double size_ = 0; ///< mm: diagonal of the body's box
-  mechanics::Vector start_;
   std::unique_ptr<mechanics::TimeIntegrator> motion_;
   long n_steps_ = 0;
   StepTroubles troubles_;
   std::optional<int> held_;
-  msm::Pull* pull_ = nullptr; ///< the body's; none: nothing is held
   /// mm: displacement of the place when it was grabbed, and what it is drawn to; N.
   Eigen::Vector3d grabbed_at_ = Eigen::Vector3d::Zero(), target_ = grabbed_at_, force_ = grabbed_at_;
-  msm::Points displacement_;
+  MovedBody::Points displacement_;
   bool is_displacement_of_now_ = false;
 };
 

@@ -286,7 +286,7 @@ std::shared_ptr<const std::string> Simulation::frame() {
                                                   static_cast<double>(carrying_.size())};
   bytes->reserve(8 * frame_numbers + 12 * carrying_.size());
   for (const double number : numbers) append<double>(*bytes, number);
-  const msm::Points& displacement = body_.displacement();
+  const MovedBody::Points& displacement = body_.displacement();
   for (const int node : carrying_) append(*bytes, displacement[cases::index(node)]);
   ++summary_.n_frames;
   return bytes;

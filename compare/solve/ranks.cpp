@@ -58,7 +58,7 @@ void deal_out(const cases::Solution& whole, const cases::Mesh& mesh, cases::Solu
   here.fields->stress = cases::deal(sharing, numbered(all.stress));
 }
 
-cases::Fields gathered(cases::Fields fields, const cases::Sharing& sharing) {
+cases::Fields fields_of_all(cases::Fields fields, const cases::Sharing& sharing) {
   fields.reaction = sharing.gather(fields.reaction);
   fields.strain = cases::gather(sharing, fields.strain);
   if (!fields.has_stress) return fields;
@@ -128,7 +128,7 @@ cases::Solution gathered(cases::Solution solution) {
   if (!solution.sharing) return solution;
   solution.displacement = solution.sharing->gather(solution.displacement);
   solution.cell_volume = solution.sharing->gather(solution.cell_volume);
-  if (solution.fields) solution.fields = gathered(std::move(*solution.fields), *solution.sharing);
+  if (solution.fields) solution.fields = fields_of_all(std::move(*solution.fields), *solution.sharing);
   solution.sharing.reset();
   return solution;
 }

@@ -87,11 +87,16 @@ cases::Scene with_solved_fem(cases::Scene scene) {
   return scene;
 }
 
-Answer solve_stepped_fem(const cases::Scene& scene, fem_reference::StepBy by) {
+Answer before_stepped_motion(const cases::Scene& scene) {
+  return gathered(solve_fem_as_given(with_solved_fem(cases::scene_before_start(scene))));
+}
+
+Answer solve_stepped_fem(const cases::Scene& scene, fem_reference::StepBy by,
+                         const mechanics::StepLimits& limits) {
   const auto& dynamics = scene.definition.dynamics;
   std::vector<Eigen::Vector3d> start;
   if (dynamics && dynamics->start == cases::MotionStart::equilibrium) {
-    const Answer before = gathered(solve_fem_as_given(with_solved_fem(cases::scene_before_start(scene))));
+    const Answer before = before_stepped_motion(scene);
     if (!before.converged()) return before;
     start = before.solution.displacement;
   }
@@ -104,7 +109,7 @@ Answer solve_stepped_fem(const cases::Scene& scene, fem_reference::StepBy by) {
           return elements.get();
         },
         [&](fem_reference::SteppedElements* of) {
-          return dynamics ? of->follow(start, by) : of->come_to_rest();
+          return dynamics ? of->follow(start, by, limits) : of->come_to_rest(limits);
         });
     if (answer.solution.from_equilibrium) // outside of the time that the iterations took
       add_distance(answer.solution, "the same elements", [&] { return elements->equilibrium(); });

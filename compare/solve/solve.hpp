@@ -77,7 +77,12 @@ Answer solve_fem_as_given(const cases::Scene& scene);
 /// The finite elements by the method of [fem] real_time, on one rank and one thread: a motion, or where the
 /// body comes to rest.
 /// @param by  newton: the method's law in a motion whose steps Newton's method solves.   Collective.
-Answer solve_stepped_fem(const cases::Scene& scene, fem_reference::StepBy by = fem_reference::StepBy::method);
+Answer solve_stepped_fem(const cases::Scene& scene, fem_reference::StepBy by = fem_reference::StepBy::method,
+                         const mechanics::StepLimits& limits = {});
+
+/// The equilibrium that a motion of stepped elements starts in, of dynamics.start = "equilibrium".
+/// Collective.
+Answer before_stepped_motion(const cases::Scene& scene);
 
 /// The scene with its finite elements solved, without real_time.
 cases::Scene with_solved_fem(cases::Scene scene);

@@ -236,7 +236,7 @@ Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm
 }
 
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design,
-                     const msm::StepLimits& limits) {
+                     const mechanics::StepLimits& limits) {
   if (scene.definition.dynamics)
     return solve_side(
         [&] { return *(design = design_for(scene)); },

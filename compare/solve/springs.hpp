@@ -16,9 +16,9 @@ msm::DesignRequest design_request(const cases::Material& material, const msm::Ce
 cases::Scene with_design(cases::Scene scene, cases::Design design);
 
 /// The stiffnesses that a scene's [msm] block asks for. On a grid all cells of a material are alike; on
-/// another mesh every cell is designed for itself (linear_method, moduli, hybrid, matched). Of several designs
-/// the result's own stiffness and moduli are those of the first cell, its misfit is the worst, and its
-/// warnings count the cells they hold for.
+/// another mesh every cell is designed for itself (linear_method, moduli, hybrid, matched). Of several
+/// designs the result's own stiffness and moduli are those of the first cell, its misfit is the worst, and
+/// its warnings count the cells they hold for.
 /// @throws InputError when the method cannot serve the material or the mesh's cells
 msm::DesignResult design_for(const cases::Scene& scene);
 
@@ -50,6 +50,6 @@ cases::Solution with_fields(const cases::Scene& scene, const msm::SpringBody& sp
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design);
 /// The same, with limits on steps in real time.
 Answer solve_springs(const cases::Scene& scene, int n_threads, std::optional<msm::DesignResult>& design,
-                     const msm::StepLimits& limits);
+                     const mechanics::StepLimits& limits);
 
 } // namespace springproof::compare

@@ -120,28 +120,40 @@ SteppedElements::SteppedElements(const cases::Scene& scene, const cases::Element
     : implementation_(new Implementation(scene, real_time, n_threads)) {}
 SteppedElements::~SteppedElements() = default;
 
-cases::Solution SteppedElements::follow(const std::vector<Eigen::Vector3d>& start, StepBy by) {
+cases::Solution SteppedElements::follow(const std::vector<Eigen::Vector3d>& start, StepBy by,
+                                        const mechanics::StepLimits& limits) {
   Implementation& body = *implementation_;
   Points from(body.scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
   std::copy(start.begin(), start.end(), from.begin());
   Vector state = mechanics::to_vector(from);
   body.points.solve_by_newton(by == StepBy::newton);
-  return mechanics::follow_motion(body.own, body.points, body.on_mesh, state,
-                                  by == StepBy::newton ? mechanics::IntegrationSettings{}
-                                                       : body.settings(body.own.definition.dynamics->step));
+  mechanics::IntegrationSettings settings;
+  if (by == StepBy::method) settings = body.settings(body.own.definition.dynamics->step);
+  settings.newton.should_stop = limits.should_stop;
+  return mechanics::follow_motion(body.own, body.points, body.on_mesh, state, settings);
 }
 
-cases::Solution SteppedElements::come_to_rest() {
+cases::Solution SteppedElements::come_to_rest(const mechanics::StepLimits& limits) {
   Implementation& body = *implementation_;
   const cases::ElementRealTime& real_time = body.real_time;
   const auto displacement = [&](const Vector& at) { return body.on_mesh.whole_displacement(at); };
   const Vector start = mechanics::to_vector(Points(body.scene.mesh.nodes.size(), Eigen::Vector3d::Zero()));
-  body.rest = mechanics::come_to_rest({body.points, displacement, {}}, start, real_time.step, real_time.end,
-                                      body.settings(real_time.step));
+  body.rest = mechanics::come_to_rest({body.points, displacement, {}}, start, real_time,
+                                      body.settings(real_time.step), limits);
   cases::Solution solution = mechanics::to_solution(body.rest.work);
   body.on_mesh.add_to(solution, body.rest.state);
   mechanics::add_rest(solution, body.rest, body.points.out_of_balance(body.rest.state, body.rest.time));
   return solution;
+}
+
+mechanics::PointsInTime& SteppedElements::points() {
+  return implementation_->points;
+}
+
+mechanics::IntegrationSettings SteppedElements::settings() {
+  Implementation& body = *implementation_;
+  return body.settings(body.own.definition.dynamics ? body.own.definition.dynamics->step
+                                                    : body.real_time.step);
 }
 
 std::vector<Eigen::Vector3d> SteppedElements::equilibrium() {

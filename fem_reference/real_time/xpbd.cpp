@@ -48,11 +48,17 @@ class Xpbd {
   int operator()(const mechanics::StepEquation& step, Points& at) {
     step.go_freely(at);
     std::fill(multipliers_.begin(), multipliers_.end(), std::array<double, 2>{});
-    for (int n = 0; n < iterations_; ++n)
+    Eigen::Vector3d pulls = Eigen::Vector3d::Zero(); // N
+    for (int n = 0; n < iterations_; ++n) {
       mechanics::for_each_item(colours_, n_threads_, [&](std::size_t cell) {
         project_deviatoric(step, cells_[cell], multipliers_[cell][0], at);
         project_hydrostatic(step, cells_[cell], multipliers_[cell][1], at);
       });
+      if (step.pull)
+        mechanics::project_pull(
+            *step.pull, [&](std::size_t p, const Eigen::Vector3d& by) { return step.moved_by(p, by); }, pulls,
+            at);
+    }
     return iterations_;
   }
 

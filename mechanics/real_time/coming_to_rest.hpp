@@ -4,6 +4,9 @@
 #include "mechanics/dynamics/follow_motion.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
+#include <functional>
+#include <utility>
+
 /// Bodies without [dynamics] that methods of steps bring to rest.
 namespace springproof::mechanics {
 
@@ -18,6 +21,24 @@ cases::Scene in_motion(cases::Scene scene, const cases::StepsBy<Method>& real_ti
   for (cases::RegionMaterial& region : scene.definition.region_materials)
     region.dynamics.mass_damping = real_time.damping;
   return scene;
+}
+
+/// What steps may take beside what a case says.
+struct StepLimits {
+  std::function<bool()> should_stop{}; ///< asked after every substep; empty: never
+  /// Told of a body that still moves at the end: the answer is its mean. Empty: such a body fails.
+  std::function<void(const CameToRest&)> tell_moving{};
+};
+
+/// The same as come_to_rest() of follow_motion.hpp, in the steps of a method and within limits.
+template<class Method>
+CameToRest come_to_rest(const BodyInTime& body, Vector start, const cases::StepsBy<Method>& real_time,
+                        IntegrationSettings settings, const StepLimits& limits) {
+  settings.newton.should_stop = limits.should_stop;
+  CameToRest rest = come_to_rest(body, std::move(start), real_time.step, real_time.end, settings,
+                                 limits.tell_moving ? StillMoving::has_mean : StillMoving::fails);
+  if (rest.mean_from) limits.tell_moving(rest);
+  return rest;
 }
 
 /// Says of a solution that it came to rest, if it did, but for its distances from an equilibrium.

@@ -27,7 +27,7 @@ Vector to_vector(const Points& points) {
 }
 
 PointsInTime::PointsInTime(const cases::Scene& scene, PointBody body, MakeStep make_step)
-    : scene_(scene), body_(std::move(body)), make_step_(std::move(make_step)) {
+    : scene_(scene), body_(std::move(body)), make_step_(std::move(make_step)), fresh_make_step_(make_step_) {
   const auto n = static_cast<Eigen::Index>(body_.tangent.number.size());
   free_.resize(n);
   mass_.resize(n);
@@ -59,7 +59,7 @@ void PointsInTime::supports_at(double time, Vector& displacement) const {
 
 void PointsInTime::set_step(const StepTerms& terms) {
   diagonal_ = terms.mass * mass_ + terms.damping * damping_;
-  step_ = {to_points(diagonal_), to_points(terms.origin), to_points(terms.force)};
+  step_ = {to_points(diagonal_), to_points(terms.origin), to_points(terms.force), pull_};
   scale_ = terms.scale;
   is_substep_ = terms.is_substep;
 }
@@ -68,11 +68,23 @@ void PointsInTime::residual(const Vector& at, double /*load_factor*/, Expect /*e
   ++work_.force_evaluations;
   residual = to_vector(body_.forces(to_points(at))) + to_vector(step_.force) -
              diagonal_.cwiseProduct(at - to_vector(step_.origin));
+  if (pull_) {
+    const Eigen::Vector3d force = pull_->force(to_points(at));
+    for (const auto& [point, weight] : pull_->weights)
+      residual.segment<3>(3 * static_cast<Eigen::Index>(point)) += weight * force;
+  }
   residual = residual.cwiseProduct(free_);
 }
 
+double PointsInTime::size_of_pull(const Vector& at) const {
+  double squares = 0; // of the weights
+  for (const auto& [point, weight] : pull_->weights) squares += weight * weight;
+  return std::sqrt(squares) * pull_->force(to_points(at)).norm();
+}
+
 NonlinearProblem::Size PointsInTime::size(const Vector& residual, const Vector& at) {
-  double scale = scale_;
+  double scale = std::max(scale_, largest_pull_);
+  if (pull_) scale = std::max(scale, size_of_pull(at));
   if (!scene_.moved.empty() || scale == 0) {
     const Vector forces = to_vector(body_.forces(to_points(at)));
     scale = std::max(scale, (forces - forces.cwiseProduct(free_)).norm());

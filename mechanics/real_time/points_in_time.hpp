@@ -5,7 +5,9 @@
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "mechanics/real_time/euler.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace springproof::mechanics {
@@ -26,6 +28,20 @@ class PointsInTime : public DynamicProblem {
 
   /// Has Newton's method in place of the method of steps, or that again.
   void solve_by_newton(bool does) { has_method_ = !does; }
+
+  /// Holds a place of the body by a spring to a place outside of it, which methods solve with the body, until
+  /// let_go(). Newton's method does not take it.
+  PullOfPoints& hold(PullOfPoints pull) { return pull_.emplace(std::move(pull)); }
+  void let_go() { pull_.reset(); }
+  /// Residuals are relative to what has pulled in any step, too: of that a step tells where it has ended.
+  void remember_pull(const Vector& at) {
+    if (pull_) largest_pull_ = std::max(largest_pull_, size_of_pull(at));
+  }
+  /// The motion begins again: what has pulled, and what a method knows of earlier steps, are forgotten.
+  void begin_anew() {
+    largest_pull_ = 0;
+    make_step_ = fresh_make_step_;
+  }
 
   /// What is left of the loads at a time (s) in a state without motion, over these loads, or over reactions
   /// where there are none.
@@ -59,7 +75,7 @@ class PointsInTime : public DynamicProblem {
  private:
   const cases::Scene& scene_;
   PointBody body_;
-  MakeStep make_step_;
+  MakeStep make_step_, fresh_make_step_;
   bool has_method_ = true;
   Vector free_, mass_, damping_; ///< 1, t and t/s on free degrees of freedom, 0 on others
   std::vector<LoadInTime> loads_;
@@ -68,8 +84,11 @@ class PointsInTime : public DynamicProblem {
   Vector diagonal_;         ///< N/mm
   StepEquation step_;
   Work work_;
+  std::optional<PullOfPoints> pull_{};
+  double largest_pull_ = 0; ///< N
 
   void rest_at(double time, const Vector& at, Vector& force);
+  double size_of_pull(const Vector& at) const; ///< N
 };
 
 /// One vector per point of a vector of PointsInTime, and the other way round.

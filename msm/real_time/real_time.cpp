@@ -1,6 +1,5 @@
 #include "msm/real_time/real_time.hpp"
 
-#include "mechanics/real_time/coming_to_rest.hpp"
 #include "msm/direct/direct_system.hpp"
 #include "msm/real_time/step_method.hpp"
 #include "msm/tangent.hpp"
@@ -108,17 +107,14 @@ cases::Scene in_motion(cases::Scene scene) {
 }
 
 cases::Solution come_to_rest(const cases::Scene& scene, const SpringBody& springs, int n_threads,
-                             const StepLimits& limits) {
+                             const mechanics::StepLimits& limits) {
   const cases::RealTime& real_time = *scene.definition.msm.real_time;
   MovingBody body(in_motion(scene), springs, {Path::direct, n_threads, {}, {}});
   const auto points = [&](const Vector& state) { return body.to_points(state); };
   const Points start(scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
   mechanics::IntegrationSettings settings = in_substeps(scene, springs, real_time.step);
-  settings.newton.should_stop = limits.should_stop;
   const mechanics::CameToRest rest = mechanics::come_to_rest(
-      {body.motion(), points, {}}, body.to_vector(start), real_time.step, real_time.end, settings,
-      limits.tell_moving ? mechanics::StillMoving::has_mean : mechanics::StillMoving::fails);
-  if (rest.mean_from) limits.tell_moving(rest);
+      {body.motion(), points, {}}, body.to_vector(start), real_time, settings, limits);
   Problem problem = make_problem(scene);
   problem.lattice = make_lattice(scene.mesh, springs);
   const auto statics = make_direct_system(problem);

@@ -1,9 +1,7 @@
 #pragma once
 
-#include "mechanics/dynamics/follow_motion.hpp"
+#include "mechanics/real_time/coming_to_rest.hpp"
 #include "msm/model.hpp"
-
-#include <functional>
 
 /// Springs that simulators' methods move.
 namespace springproof::msm {
@@ -18,13 +16,6 @@ MovingSprings::StepMethod step_method(const cases::RealTime& real_time, const Pr
 /// @param step  s, that the substeps are of
 mechanics::IntegrationSettings in_substeps(const cases::Scene& scene, const SpringBody& springs, double step);
 
-/// What steps may take beside what a case says.
-struct StepLimits {
-  std::function<bool()> should_stop{}; ///< asked after every substep; empty: never
-  /// Told of a body that still moves at the end: the answer is its mean. Empty: such a body fails.
-  std::function<void(const mechanics::CameToRest&)> tell_moving{};
-};
-
 /// The scene of a body without [dynamics] as the motion in which it comes to rest.
 cases::Scene in_motion(cases::Scene scene);
 
@@ -33,6 +24,6 @@ cases::Scene in_motion(cases::Scene scene);
 /// @return with Solution::from_equilibrium but for the distances
 /// @throws cases::SolveError when it is stopped, or does not come to rest within the time that the case gives
 cases::Solution come_to_rest(const cases::Scene& scene, const SpringBody& springs, int n_threads,
-                             const StepLimits& limits = {});
+                             const mechanics::StepLimits& limits = {});
 
 } // namespace springproof::msm

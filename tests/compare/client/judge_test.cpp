@@ -47,7 +47,7 @@ TEST_CASE(
   compare::ClientBudget budget;
   budget.model_time = 0.3; // below the half second that tells rest
   const compare::JudgedRow row =
-      judge.step(compare::real_time_in(cases::StepMethod::implicit_euler, budget), budget);
+      judge.step(compare::steps_in(cases::StepMethod::implicit_euler, budget), budget);
   CHECK(row.failure.empty());
   CHECK(row.status() == "moving");
   CHECK_FALSE(row.rests_after);
@@ -59,7 +59,7 @@ TEST_CASE(
   CHECK(*row.measures[0].msm == Approx(*springs.measures.at(0).msm).epsilon(1e-6)); // Newton's tolerance
   budget.model_time = 20;
   const compare::JudgedRow at_rest =
-      judge.step(compare::real_time_in(cases::StepMethod::implicit_euler, budget), budget);
+      judge.step(compare::steps_in(cases::StepMethod::implicit_euler, budget), budget);
   CHECK(at_rest.status() == "answered");
   REQUIRE(at_rest.rests_after);
   CHECK(*at_rest.rests_after <= 1); // at the first or second look
@@ -69,7 +69,40 @@ TEST_CASE("our springs in real time end with the time that an answer may take") 
   compare::ClientBudget budget;
   budget.seconds = 0;
   const compare::JudgedRow row =
-      compare::Judge(block(), 0).step(compare::real_time_in(cases::StepMethod::xpbd, budget), budget);
+      compare::Judge(block(), 0).step(compare::steps_in(cases::StepMethod::xpbd, budget), budget);
   CHECK(row.status() == "failed");
   CHECK_THAT(row.failure, Catch::Contains("it was stopped: it took longer than 0 s"));
+}
+
+TEST_CASE("elements that a method steps are a row, which comes to rest near the elements in equilibrium") {
+  compare::ClientBudget budget;
+  budget.iterations = 30;
+  const compare::Judge judge(block(), 0);
+  const compare::JudgedCase own = judge.own(budget);
+  const double springs = std::abs(own.rows.at(1).worst.value());
+  for (const auto method :
+       {cases::ElementMethod::corotational, cases::ElementMethod::total_lagrangian_explicit}) {
+    const compare::JudgedRow row = judge.step(compare::steps_in(method, budget), budget);
+    CAPTURE(row.model, row.failure);
+    CHECK(row.status() == "answered");
+    REQUIRE(row.client);
+    CHECK(row.model == "fem." + cases::name_of(method));
+    CHECK(row.worst.value() != 0);
+    CHECK(std::abs(row.worst.value()) < springs / 2);
+    CHECK(compare::row_to_json(row)["client"]["settings"]["element"] ==
+          (method == cases::ElementMethod::corotational ? "q1_bbar" : "q1"));
+  }
+  const compare::JudgedRow refused =
+      judge.step(compare::steps_in(cases::ElementMethod::xpbd, budget), budget);
+  CHECK(refused.status() == "failed");
+  CHECK(refused.failure == "fem.xpbd cannot step the case: the body must be a mesh of tetrahedra");
+}
+
+TEST_CASE("methods of both models have names of their own") {
+  for (const std::string& name : compare::method_names())
+    CHECK(compare::name_of(compare::method_called(name).value()) == name);
+  CHECK_FALSE(compare::method_called("fem.projective_dynamics"));
+  CHECK_FALSE(compare::method_called("corotational"));
+  CHECK_THROWS_WITH(compare::method_of("fem.total_lagrangian_explicit:3", {}),
+                    Catch::Contains("is explicit and has no iterations"));
 }

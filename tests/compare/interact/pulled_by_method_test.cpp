@@ -1,3 +1,4 @@
+#include "compare/client/methods.hpp"
 #include "tests/compare/interact/block.hpp"
 
 #include <catch2/catch.hpp>
@@ -87,5 +88,59 @@ TEST_CASE("a stiff spring does not drive on an undamped body that few iterations
       CHECK(body.troubles().n_failures == 0);
       CHECK(largest > 1);
       CHECK(largest < 30); // a swing goes twice as far as the pointer, and what few iterations leave is soft
+    }
+}
+
+/// A block whose elements a method steps.
+static cases::Scene stepped(cases::ElementMethod method, int iterations, const std::string& damping) {
+  cases::Scene scene = block("[3, 3, 4]", damping);
+  cases::ElementRealTime steps;
+  steps.method = method;
+  steps.iterations = iterations;
+  compare::set_steps(scene, steps);
+  return scene;
+}
+
+TEST_CASE("elements are pulled by every method that hexahedra have") {
+  // In the end the block is at rest, where both have the same pull and the corotational law is near the
+  // other.
+  std::vector<double> ends;
+  for (const auto method :
+       {cases::ElementMethod::corotational, cases::ElementMethod::total_lagrangian_explicit}) {
+    CAPTURE(cases::name_of(method));
+    const cases::Scene scene = stepped(method, 100, "mass_damping = 30");
+    PulledBody body(scene, {50, 1e-2, 1, cases::Side::fem});
+    body.step();
+    REQUIRE(body.grab(from_right));
+    body.drag({2, 0, 0});
+    for (int step = 0; step < 200; ++step) body.step();
+    CHECK(body.troubles().n_failures == 0);
+    CHECK(body.force().norm() > 0);
+    ends.push_back(largest_displacement(body));
+    body.restart();
+    CHECK(largest_displacement(body) == 0);
+  }
+  CHECK(ends[0] > 0.1);
+  CHECK(ends[1] == Approx(ends[0]).epsilon(0.05));
+}
+
+TEST_CASE("a stiff spring does not drive on undamped elements that few iterations step") {
+  for (const auto method :
+       {cases::ElementMethod::corotational, cases::ElementMethod::total_lagrangian_explicit})
+    for (const double stiffness : {1e-2, 1e6}) {
+      CAPTURE(cases::name_of(method), stiffness);
+      const cases::Scene scene = stepped(method, 10, "");
+      PulledBody body(scene, {50, stiffness, 1, cases::Side::fem});
+      body.step();
+      REQUIRE(body.grab(from_right));
+      body.drag({10, 0, 0});
+      double largest = 0;
+      for (int step = 0; step < 60; ++step) {
+        body.step();
+        largest = std::max(largest, largest_displacement(body));
+      }
+      CHECK(body.troubles().n_failures == 0);
+      CHECK(largest > 1);
+      CHECK(largest < 30); // a swing goes twice as far as the pointer
     }
 }

@@ -255,6 +255,35 @@ TEST_CASE("a body of elements comes to rest in the equilibrium of its law", "[ve
   CHECK(more < few / 2);
 }
 
+TEST_CASE("elements come to rest in balance with a spring that holds a place of theirs", "[verification]") {
+  for (const ElementMethod method : methods) {
+    CAPTURE(cases::name_of(method));
+    cases::Scene scene = bar_for(method, Vector3d::Zero());
+    scene.definition.material_dynamics.mass_damping = 10; // 1/s: five seconds leave exp(-25) of a swing
+    const int iterations = method == ElementMethod::xpbd ? 1 : 30;
+    SteppedElements elements(
+        scene, steps(method, iterations, method == ElementMethod::xpbd ? std::optional(50) : std::nullopt),
+        1);
+    mechanics::PointsInTime& points = elements.points();
+    const std::size_t tip = scene.mesh.nodes.size() - 1, beside = tip - 1;
+    const double stiffness = 1e-3; // N/mm, some of the bar's own
+    const mechanics::PullOfPoints& pull =
+        points.hold({{{tip, 0.75}, {beside, 0.25}}, stiffness, Vector3d(0, 0, 4)});
+    const mechanics::Vector zero = mechanics::Vector::Zero(static_cast<Eigen::Index>(3 * (tip + 1)));
+    mechanics::TimeIntegrator motion(points, scene.definition.dynamics->scheme, {0, zero, zero, {}},
+                                     elements.settings());
+    for (int n = 1; n <= 500; ++n) motion.advance(0.01 * n);
+    const Vector3d place = pull.mean(mechanics::to_points(motion.now().displacement));
+    CAPTURE(place.transpose(), motion.work().residual);
+    CHECK(place.z() > 0.4);
+    CHECK(place.z() < 3.6);
+    CHECK(motion.work().residual < 0.02); // of the pull, which is all that acts
+    points.let_go();
+    for (int n = 501; n <= 1000; ++n) motion.advance(0.01 * n);
+    CHECK(mechanics::to_points(motion.now().displacement)[tip].norm() < 1e-6 * place.z());
+  }
+}
+
 TEST_CASE("the equilibrium of explicit steps is that of the finite elements", "[verification]") {
   cases::Scene scene = bar(Element::q1);
   scene.definition.dynamics.reset();
