@@ -34,6 +34,9 @@ struct AssembledBody {
     return elements_of(scene, formulations, discretisation, equations, state);
   }
   void add_guess(mechanics::EquilibriumSettings&) const {}
+  mechanics::Contact* contact() { return equations.contact(); }
+  /// What the scene's tools do to the body in a state, with the forces on the nodes of the body's own mesh.
+  std::vector<cases::ToolContact> tools(const State& state, double load_factor);
   void set_in_motion(const mechanics::EquilibriumSettings&);
 };
 

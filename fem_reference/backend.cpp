@@ -38,7 +38,7 @@ Backend backend_of(const cases::Scene& scene, Backend asked) {
   if (asked == Backend::grid && !grid::is_on_grid(scene))
     throw cases::InputError(scene.definition.fem.where,
                             "the grid's backend needs a body that is a grid of cells, an isotropic material, "
-                            "and no q2_p1; beside [dynamics] no q2 and no prony");
+                            "no q2_p1 and no tools; beside [dynamics] no q2 and no prony");
   return asked;
 }
 

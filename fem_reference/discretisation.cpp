@@ -197,6 +197,7 @@ Discretisation::Discretisation(const cases::Scene& scene, const ElementType& typ
   if (!scene.material_of_cell.empty())
     for (const int cell : nodes.mesh_cell) material_of_cell.push_back(scene.material_of_cell[index(cell)]);
   if (element.pressure == Pressure::nodes) find_pressures();
+  if (!scene.definition.tools.empty()) find_tool_sides(scene);
 }
 
 void Discretisation::find_pressures() {

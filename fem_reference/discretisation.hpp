@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem_reference/geometry.hpp"
+#include "mechanics/contact/contact.hpp"
 
 #include <memory>
 #include <utility>
@@ -56,7 +57,8 @@ class Discretisation {
   std::vector<int> material_of_cell; ///< in the scene's materials; empty when there is but one
   /// Owned nodes with a pressure, and the integral of each one's shape function, mm³.
   std::vector<std::pair<int, double>> pressures;
-  long n_pressures = 0; ///< all ranks'
+  long n_pressures = 0;                          ///< all ranks'
+  std::vector<mechanics::ToolSide> tool_sides{}; ///< the scene's tools and the nodes that they may touch
 
   /// Full load of a scene that differs from this one in its loads alone, N per owned degree of freedom.
   std::vector<double> load_of(const cases::Scene& scene) const;
@@ -76,6 +78,7 @@ class Discretisation {
 
  private:
   void find_pressures();
+  void find_tool_sides(const cases::Scene& scene);
 };
 
 } // namespace springproof::fem_reference

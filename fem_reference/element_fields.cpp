@@ -89,7 +89,8 @@ cases::Fields fields_of(const ElementsInState& elements, const cases::Sharing* s
   return mechanics::fields_of(
       scene, std::move(sums), sharing,
       {load_factor, is_linear ? mechanics::StrainMeasure::linear : mechanics::StrainMeasure::logarithmic,
-       cases::PointMass::cells, load_factor == 0 ? mechanics::Balance::not_asked : balance_of(scene)});
+       cases::PointMass::cells, load_factor == 0 ? mechanics::Balance::not_asked : balance_of(scene),
+       elements.tools});
 }
 
 cases::FieldNorms displacement_norms(const ElementsInState& elements, const cases::Sharing* sharing) {

@@ -35,6 +35,7 @@ struct ElementsInState {
   cases::Range cells; ///< contains the body's cells of all elements here
   /// Calls action(element). Of the ranks that share a state, one has each element.
   std::function<void(const std::function<void(const ElementState&)>& action)> for_each;
+  std::vector<cases::ToolContact> tools{}; ///< what tools do to the body
 };
 
 /// Fields of an equilibrium under the scene's loads times a factor, on the body's own mesh: the forces of the

@@ -142,7 +142,8 @@ void Assembly::internals_are_balanced() {
 EquilibriumEquations::EquilibriumEquations(const Discretisation& discretisation,
                                            const std::vector<Formulation>& formulations)
     : DistributedProblem(discretisation.communicator, discretisation.element.n_internal() > 0,
-                         formulations.front().kinematics == Kinematics::linear),
+                         formulations.front().kinematics == Kinematics::linear &&
+                             discretisation.tool_sides.empty()),
       discretisation_(discretisation), assembly_(discretisation, formulations),
       solver_(discretisation, assembly_.tangent(), formulations.front().symmetry),
       force_(discretisation.make_vector()), right_hand_side_(discretisation.make_vector()),
@@ -152,6 +153,7 @@ EquilibriumEquations::EquilibriumEquations(const Discretisation& discretisation,
   for (std::size_t i = 0; i < d.load.size(); ++i)
     if (!d.constraints.is_constrained[i]) squared += d.load[i] * d.load[i];
   load_norm_ = std::sqrt(total(squared, MPI_SUM, communicator_));
+  if (!d.tool_sides.empty()) contact_.emplace(d.tool_sides);
 }
 
 void EquilibriumEquations::residual(const State& at, double load_factor, mechanics::Expect expect,
@@ -202,6 +204,7 @@ void EquilibriumEquations::evaluate(const State& state, double load_factor, Want
   const auto internal =
       assembly_.assemble(state, prescribed_gap_, wanted, force_.get(), right_hand_side_.get());
   if (step_) add_inertia(state, wanted);
+  if (contact_) add_contact(state, load_factor, wanted);
   measure(internal, load_factor);
   if (wanted == Wanted::stress) return;
   // minus the condensed imbalance, and the prescribed gap on constrained degrees of freedom
@@ -379,7 +382,7 @@ void EquilibriumEquations::measure(const std::optional<InternalImbalance>& inter
     mismatch = std::max(mismatch, std::abs(force[d.pressure_of(node)]) / volume);
   imbalance = std::sqrt(total(imbalance, MPI_SUM, communicator_));
   largest_gap_ = total(largest_gap_, MPI_MAX, communicator_);
-  reaction = std::sqrt(total(reaction, MPI_SUM, communicator_));
+  reaction = std::hypot(std::sqrt(total(reaction, MPI_SUM, communicator_)), contact_force_);
   size_.relative = imbalance == 0 ? 0 : imbalance / scale(d.constraints.are_moved, reaction);
   mismatch = total(mismatch, MPI_MAX, communicator_);
   size_.constraints_hold = mismatch <= volume_tolerance && largest_gap_ <= 1e-12;

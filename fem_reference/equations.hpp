@@ -138,6 +138,9 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
     assembly_.for_each_cell(state, action);
   }
 
+  /// The contact with the scene's tools; null: there are none.
+  mechanics::Contact* contact() { return contact_ ? &*contact_ : nullptr; }
+
  private:
   std::size_t n_dofs() const { return discretisation_.constraints.is_constrained.size(); }
   void evaluate(const State& state, double load_factor, Wanted wanted);
@@ -149,6 +152,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   State with_ghosts(const State& motion);
   void set_inertia_force(const LocalMatrix& matrix, const State& motion);
   void add_to_tangent(const LocalMatrix& added);
+  void add_contact(const State& state, double load_factor, Wanted wanted);
   bool has_nodal_pressures() const { return discretisation_.element.pressure == Pressure::nodes; }
   void measure(const std::optional<InternalImbalance>& internal, double load_factor);
 
@@ -163,7 +167,9 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
     Inertia inertia;
     LocalMatrix added; ///< mass M + damping C of the step, N/mm; its pattern is part of the tangent's
   };
-  std::optional<Motion> motion_; ///< present for a body in motion
+  std::optional<Motion> motion_;              ///< present for a body in motion
+  std::optional<mechanics::Contact> contact_; ///< with the scene's tools
+  double contact_force_ = 0;                  ///< norm of its forces in the last evaluation, N
   long n_evaluations_ = 0, n_tangents_ = 0;
   bool has_tangent_ = false; ///< it was assembled at a valid state
   // results for the state last evaluated

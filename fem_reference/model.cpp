@@ -83,7 +83,9 @@ cases::Solution Model::solve_again(double load_factor, const mechanics::Equilibr
 
 cases::Fields Model::fields(const cases::Sharing* sharing) {
   return implementation_->with_body([&](auto& elements) {
-    return fields_of(elements.body.elements(elements.last, sharing), sharing, elements.last_load_factor);
+    ElementsInState state = elements.body.elements(elements.last, sharing);
+    state.tools = elements.tools;
+    return fields_of(state, sharing, elements.last_load_factor);
   });
 }
 

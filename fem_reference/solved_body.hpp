@@ -2,6 +2,7 @@
 
 #include "cases/scene/scene.hpp"
 #include "fem_reference/element_fields.hpp"
+#include "mechanics/contact/contact.hpp"
 #include "mechanics/dynamics/follow_motion.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
@@ -20,11 +21,13 @@ struct SolvedBody {
 
   Body body;
   mechanics::Vector last;
-  double last_load_factor = 0; ///< the equilibrium's; 0: at rest
+  double last_load_factor = 0;             ///< the equilibrium's; 0: at rest
+  std::vector<cases::ToolContact> tools{}; ///< what tools do to the body in the equilibrium
 
   void back_to_rest() {
     last = body.equations.rest();
     last_load_factor = 0;
+    if (body.contact()) body.contact()->forget();
   }
 
   /// See Model::solve_again().
@@ -35,11 +38,16 @@ struct SolvedBody {
     settings = mechanics::in_small_turns(cases::largest_turn(definition), cases::least_load_steps(definition),
                                          std::move(settings));
     body.add_guess(settings);
-    const auto equilibrium = mechanics::find_equilibrium(body.equations, last, "finite elements", settings);
+    const auto displacement_of = [](const mechanics::Vector& state) -> mechanics::DisplacementAt {
+      return [&state](int node) -> Eigen::Vector3d { return state.segment<3>(3 * node); };
+    };
+    const auto equilibrium = mechanics::find_equilibrium_in_contact(
+        body.equations, body.contact(), displacement_of, last, "finite elements", settings);
     last = equilibrium.state;
     last_load_factor = load_factor;
     cases::Solution solution = mechanics::to_solution(equilibrium);
     body.on_mesh().add_to(solution, last);
+    solution.tools = tools = body.tools(last, load_factor);
     add_norms(solution);
     if (settings.stability != mechanics::Stability::ignore)
       solution.negative_eigenvalues = body.equations.negative_eigenvalues();

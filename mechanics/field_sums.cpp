@@ -79,6 +79,9 @@ std::vector<Eigen::Vector3d> reactions(const cases::Scene& scene, std::vector<Ei
   for (const auto& [node, load] : cases::applied_forces(scene, of.shared))
     if (here.nodes.has(cases::index(node)))
       applied[cases::index(node) - here.nodes.begin] += of.load_factor * load;
+  for (const cases::ToolContact& tool : of.tools)
+    for (std::size_t n = 0; n < tool.nodes.size(); ++n)
+      applied[cases::index(tool.nodes[n]) - here.nodes.begin] += tool.on_nodes[n];
   for (std::size_t n = 0; n < force.size(); ++n) force[n] -= applied[n];
   for (const auto& [selection, components] : scene.constrained)
     for (const int node : selection.nodes) {

@@ -71,6 +71,7 @@ struct FieldsOf {
   StrainMeasure measure;
   cases::PointMass shared; ///< how the model's nodes share the mass that gravity acts on
   Balance balance;
+  std::vector<cases::ToolContact> tools{}; ///< what they do to the body, with forces that are not scaled
 };
 
 /// The fields of a solution, each rank's share of them. Reactions are internal forces less the applied ones,

@@ -27,12 +27,12 @@ bool takes_multigrid(const cases::Scene& scene, const SpringBody& springs, Path 
            cell.volume < 0;
   };
   const bool can = scene.mesh.grid && cells && !cases::has_memory(scene.definition) &&
-                   std::none_of(cells->begin(), cells->end(), is_another);
+                   scene.definition.tools.empty() && std::none_of(cells->begin(), cells->end(), is_another);
   if (wanted == Path::multigrid && !can)
     throw cases::InputError(
         "the multigrid path needs a body that is a grid of cells of edges, face diagonals, "
-        "internal diagonals and a volume term, springs of one law, no negative stiffness, and "
-        "a material without prony");
+        "internal diagonals and a volume term, springs of one law, no negative stiffness, "
+        "a material without prony and a case without tools");
   if (wanted != Path::automatic) return wanted == Path::multigrid;
   return can && prefers_multigrid(*scene.mesh.grid, double(scene.mesh.nodes.size()));
 }
@@ -51,7 +51,8 @@ Model::Model(const cases::Scene& scene, const SpringBody& springs, const ModelOp
       problem_.force.clear(); // the grid has its own
   } else {
     problem_.lattice = make_lattice(scene.mesh, springs);
-    const bool is_iterated = options.path == Path::automatic && takes_patched_system(problem_.lattice) &&
+    const bool is_iterated = options.path == Path::automatic && !problem_.contact &&
+                             takes_patched_system(problem_.lattice) &&
                              problem_.lattice.volume_patches.size() >= patches_iterated_from;
     system_ = is_iterated ? make_patched_system(problem_) : make_direct_system(problem_);
   }
@@ -80,16 +81,27 @@ cases::Solution Model::solve_on_path(mechanics::EquilibriumSettings settings, co
   if (grid_) clear_constrained(grid_->body, from);
   if (is_newton && grid_ && !grid_->supports && start.empty() && settings.first_load_step == 1)
     settings.guess = grid::coarse_guess(*grid_, n_threads_);
-  const mechanics::Equilibrium found =
-      system_->n_unknowns() == 0 ? mechanics::prescribed_state(*system_, from, settings)
-      : is_newton   ? mechanics::find_equilibrium(*system_, from, "mass-spring equilibrium", settings)
-      : relaxation_ ? relax_for(*system_, from, *relaxation_, settings)
-                    : relax(*system_, from, solver_, settings);
+  const auto in_contact = [&] {
+    if (problem_.contact) problem_.contact->forget();
+    const auto displacement_of = [&](const Vector& state) -> mechanics::DisplacementAt {
+      return [points = to_points(problem_, state)](int node) { return points[cases::index(node)]; };
+    };
+    return mechanics::find_equilibrium_in_contact(*system_, problem_.contact.get(), displacement_of, from,
+                                                  "mass-spring equilibrium", settings);
+  };
+  const mechanics::Equilibrium found = system_->n_unknowns() == 0
+                                           ? mechanics::prescribed_state(*system_, from, settings)
+                                       : is_newton   ? in_contact()
+                                       : relaxation_ ? relax_for(*system_, from, *relaxation_, settings)
+                                                     : relax(*system_, from, solver_, settings);
   cases::Solution solution =
       solution_of(problem_, found,
                   grid_ ? grid::to_points(problem_, grid_->body, found.state, sharing_.get())
                         : to_points(problem_, found.state),
                   sharing_);
+  if (problem_.contact)
+    solution.tools = problem_.contact->found(
+        [&](int node) { return solution.displacement[cases::index(node)]; }, settings.to);
   if (relaxation_) solution.from_equilibrium = cases::FromEquilibrium{settings.tolerance, {}, {}, {}, {}, {}};
   return solution;
 }
@@ -248,7 +260,8 @@ mechanics::FieldsOf how_of(const cases::Scene& scene, const cases::Solution& sol
   return {load_factor, mechanics::StrainMeasure::logarithmic, scene.definition.msm.mass,
           solution.status == cases::Status::converged && solution.is_equilibrium()
               ? mechanics::Balance::at_nodes
-              : mechanics::Balance::not_asked};
+              : mechanics::Balance::not_asked,
+          solution.tools};
 }
 
 /// What the patches about nodes have of an answer.

@@ -52,7 +52,11 @@ std::size_t n_unknowns(const Problem& problem) {
 
 Problem make_problem(const cases::Scene& scene) {
   const auto factor = [](const cases::Moved& /*motion*/, double load_factor) { return load_factor; };
-  return {scene.mesh, {}, loads(scene), cases::constrained_dofs(scene), moving_supports(scene, factor)};
+  Problem problem{
+      scene.mesh, {}, loads(scene), cases::constrained_dofs(scene), moving_supports(scene, factor)};
+  if (!scene.definition.tools.empty())
+    problem.contact = std::make_shared<mechanics::Contact>(mechanics::tool_sides(scene));
+  return problem;
 }
 
 Problem make_moving_problem(const cases::Scene& scene) {

@@ -2,6 +2,7 @@
 
 #include "cases/case/solution.hpp"
 #include "cases/scene/loads.hpp"
+#include "mechanics/contact/contact.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "msm/lattice.hpp"
 
@@ -21,6 +22,8 @@ struct Problem {
   /// Displacement (mm) of constrained points that move, at a load factor; empty: none does.
   /// They are the same points at any, in the same order, and kept until the next call.
   std::function<const std::vector<cases::NodeVector>&(double load_factor)> supports{};
+
+  std::shared_ptr<mechanics::Contact> contact{}; ///< with the scene's tools; null: there are none
 
   /// One vector per point.
   Points on_all_points(const std::vector<cases::NodeVector>& some) const {

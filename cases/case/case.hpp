@@ -5,6 +5,7 @@
 #include "cases/case/material.hpp"
 #include "cases/case/measure.hpp"
 #include "cases/case/models.hpp"
+#include "cases/case/tool.hpp"
 
 #include <cmath>
 
@@ -59,16 +60,17 @@ struct Case {
   std::optional<BodySurface> surface{}; ///< absent: the outer one of the cells
   std::vector<Landmark> landmarks{};
   std::vector<Removed> removed{}; ///< cut out of the body
+  std::vector<Tool> tools{};
 };
 
 template<class Archive>
 void serialize(Archive& archive, Case& definition) {
   auto& [name, description, file, body, fem_body, material, material_dynamics, region_materials, fixed,
          symmetry, moved, loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics,
-         surface, landmarks, removed] = definition;
+         surface, landmarks, removed, tools] = definition;
   archive(name, description, body, fem_body, material, material_dynamics, region_materials, fixed, symmetry,
           moved, loads, masses, fem, msm, measures, expectations, stress, has_fields, dynamics, surface,
-          landmarks, removed);
+          landmarks, removed, tools);
   if constexpr (has_places<Archive>) archive(file);
 }
 
@@ -103,6 +105,11 @@ inline bool has_finite_elements(const Case& definition) {
 /// @throws InputError, at the network's nodes
 void refuse_network(const Case& definition, const std::string& what, const std::string& instead);
 
+/// Refuses tools where nothing knows them.
+/// @param beside  such as "--client"    @param reason  why, or what to do
+/// @throws InputError, at the first tool
+void refuse_tools(const Case& definition, const std::string& beside, const std::string& reason);
+
 /// @throws InputError if there is no body that finite elements can be made of
 void check_finite_elements(const Case& definition);
 
@@ -135,10 +142,11 @@ void check_turns_in_time(const Case& definition);
 /// The factor with the largest magnitude in a whole motion; 1 in a static case.
 double largest_factor(const Moved& moved, const std::optional<Dynamics>& dynamics);
 
-/// Load steps that the motions ask for.
+/// Load steps that the motions and the tools ask for.
 inline int least_load_steps(const Case& definition) {
   int steps = 1;
   for (const Moved& moved : definition.moved) steps = std::max(steps, moved.steps);
+  for (const Tool& tool : definition.tools) steps = std::max(steps, tool.steps);
   return steps;
 }
 

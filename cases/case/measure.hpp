@@ -24,7 +24,8 @@ enum class From {
   volume,             ///< volumes of cells; followed in time
   displacement_field, ///< a norm of all displacements, at the end of a motion
   body,               ///< any displacements; statics alone
-  fields              ///< Solution::fields, which a displacement alone does not tell; statics alone
+  fields,             ///< Solution::fields, which a displacement alone does not tell; statics alone
+  tools               ///< Solution::tools, likewise
 };
 
 template<class Kind>
@@ -135,8 +136,47 @@ struct Curvature {
 };
 SPRINGPROOF_FIELDS(Curvature, region, axis)
 
+/// The force of a tool on the body.
+struct ToolForce {
+  static constexpr const char *name = "tool_force", *unit = "N";
+  static constexpr From from = From::tools;
+  std::size_t tool = 0; ///< index in Case::tools
+  Component component = Component::norm;
+  static constexpr NoRegions<ToolForce> regions{};
+};
+SPRINGPROOF_FIELDS(ToolForce, tool, component)
+
+/// The moment of a tool's pressure on the body, about where the tool is.
+struct ToolTorque {
+  static constexpr const char *name = "tool_torque", *unit = "N mm";
+  static constexpr From from = From::tools;
+  std::size_t tool = 0; ///< index in Case::tools
+  Component component = Component::norm;
+  static constexpr NoRegions<ToolTorque> regions{};
+};
+SPRINGPROOF_FIELDS(ToolTorque, tool, component)
+
+/// The area of the surface at rest that a tool presses on.
+struct ContactArea {
+  static constexpr const char *name = "contact_area", *unit = "mm2";
+  static constexpr From from = From::tools;
+  std::size_t tool = 0; ///< index in Case::tools
+  static constexpr NoRegions<ContactArea> regions{};
+};
+SPRINGPROOF_FIELDS(ContactArea, tool)
+
+/// How far the surface is inside a tool where it is deepest.
+struct Penetration {
+  static constexpr const char *name = "penetration", *unit = "mm";
+  static constexpr From from = From::tools;
+  std::size_t tool = 0; ///< index in Case::tools
+  static constexpr NoRegions<Penetration> regions{};
+};
+SPRINGPROOF_FIELDS(Penetration, tool)
+
 using Kind = std::variant<Coordinate, Displacement, Tilt, Twist, Volume, DisplacementFieldL2,
-                          DisplacementFieldMax, Reaction, StrainEnergy, Stress, Strain, Curvature>;
+                          DisplacementFieldMax, Reaction, StrainEnergy, Stress, Strain, Curvature, ToolForce,
+                          ToolTorque, ContactArea, Penetration>;
 
 inline From from_of(const Kind& kind) {
   return std::visit([](const auto& one) { return one.from; }, kind);
@@ -144,7 +184,7 @@ inline From from_of(const Kind& kind) {
 
 /// Whether a motion has it: forces, stresses and curvatures are measured in statics alone.
 inline bool is_in_time(const Kind& kind) {
-  return from_of(kind) != From::fields && from_of(kind) != From::body;
+  return from_of(kind) != From::fields && from_of(kind) != From::body && from_of(kind) != From::tools;
 }
 
 } // namespace measures
@@ -152,6 +192,11 @@ inline bool is_in_time(const Kind& kind) {
 /// Whether a measure needs Solution::fields, which a displacement alone does not tell.
 inline bool is_of_fields(const measures::Kind& kind) {
   return from_of(kind) == measures::From::fields;
+}
+
+/// Whether a measure needs Solution::tools.
+inline bool is_of_tools(const measures::Kind& kind) {
+  return from_of(kind) == measures::From::tools;
 }
 
 /// Whether a measure's error is the norm of a difference of fields.

@@ -255,6 +255,10 @@ Region read_region_text(const Entry& entry, const Body& body) {
   return {text, std::nullopt, entry.where};
 }
 
+Region read_region_entry(const Entry& entry, const Body& body) {
+  return entry.node && entry.node->is_table() ? read_part(entry, body) : read_region_text(entry, body);
+}
+
 Region read_region(Table& table, const Body& body) {
   if (table.has("nearest")) return read_nearest(table);
   table.refuse_unless(false, {"tolerance"}, "left out without nearest, from whose point it is the distance");
@@ -262,7 +266,7 @@ Region read_region(Table& table, const Body& body) {
     const Entry entry = table.entry("region");
     table.know({"near", "nearest"});
     table.refuse_unless(false, {"radius"}, "left out without near, whose patch it is the radius of");
-    return entry.node && entry.node->is_table() ? read_part(entry, body) : read_region_text(entry, body);
+    return read_region_entry(entry, body);
   }
   table.refuse_unless(!table.has("region"), {"near"},
                       "left out beside region: they say the same thing twice");
@@ -315,8 +319,12 @@ void check_boundary(Table& root, const Case& result) {
   if (std::any_of(moved.begin(), moved.end(),
                   [&](const Moved& one) { return moves(one) && has_begun(one.history); }))
     return;
+  if (std::any_of(result.tools.begin(), result.tools.end(),
+                  [](const Tool& tool) { return !tool.displacement.isZero(0); }))
+    return;
   if (loads.empty() && has_moves) refuse_late("moved");
-  if (loads.empty()) root.entry("load").refuse("one or more tables [[load]] or [[moved]]");
+  if (loads.empty())
+    root.entry("load").refuse("one or more tables [[load]] or [[moved]], or [[tool]] with a displacement");
   if (std::all_of(loads.begin(), loads.end(), [](const Load& load) { return load.is_zero(); }) &&
       !has_moves) {
     Table first(root.entry("load").elements("tables").front(), "a table");
@@ -325,6 +333,17 @@ void check_boundary(Table& root, const Case& result) {
   if (std::none_of(loads.begin(), loads.end(),
                    [&](const Load& load) { return !load.is_zero() && has_begun(load.history); }))
     refuse_late(has_moves ? "moved" : "load");
+}
+
+void check_turns(const Case& definition) {
+  if (definition.fem.formulation != Formulation::small_strain) return;
+  for (const Moved& moved : definition.moved)
+    if (const double degrees = std::abs(moved.angle) * largest_factor(moved, definition.dynamics);
+        !(degrees <= largest_turn_of_small_strain))
+      refuse(moved.region.where,
+             "is turned by {} degrees, must be at most {} beside fem.formulation = \"small_strain\", which "
+             "knows nothing of the way there",
+             degrees, largest_turn_of_small_strain);
 }
 
 } // namespace springproof::cases

@@ -59,6 +59,7 @@ void check_differ(Table& table, const std::string& key, const Region& here, cons
 struct MeasureKeys {
   Table& table;
   const Body& body;
+  const std::vector<Tool>& tools;
 
   /// Reads a text, or { nearest = [...], tolerance = 2 }.
   Region node(const char* key) const {
@@ -129,6 +130,13 @@ struct MeasureKeys {
   void operator()(measures::Volume&) const {}
   void operator()(measures::DisplacementFieldL2&) const {}
   void operator()(measures::DisplacementFieldMax&) const {}
+  /// Reads the measures of a tool.
+  template<class Kind>
+  auto operator()(Kind& measure) const -> decltype(void(measure.tool)) {
+    measure.tool = read_tool_index(table.entry("tool"), tools);
+    if constexpr (std::is_same_v<Kind, measures::ToolForce> || std::is_same_v<Kind, measures::ToolTorque>)
+      measure.component = table.required("component", read_name<Component>);
+  }
 
   void read_of_cells(measures::OfCells& measure, const std::vector<std::string>& components) const {
     measure.component = *value_of<TensorComponent>(table.entry("component").word(components));
@@ -150,7 +158,7 @@ Measure read_measure(Table& table, const Case& definition) {
   measure.where = table.where();
   measure.name = table.required("name", read_text);
   measure.kind = table.required("kind", read_kind<measures::Kind>);
-  std::visit(MeasureKeys{table, definition.body}, measure.kind);
+  std::visit(MeasureKeys{table, definition.body, definition.tools}, measure.kind);
   if (definition.dynamics && !measures::is_in_time(measure.kind))
     table.entry("kind").refuse("a measure of single nodes' displacements or of volume: forces, stresses and "
                                "curvatures of a motion are not recorded");
@@ -257,17 +265,6 @@ void check_accuracy(Table& root, const Case& definition) {
                                        "with which no limit is looked for");
 }
 
-void check_turns(const Case& definition) {
-  if (definition.fem.formulation != Formulation::small_strain) return;
-  for (const Moved& moved : definition.moved)
-    if (const double degrees = std::abs(moved.angle) * largest_factor(moved, definition.dynamics);
-        !(degrees <= largest_turn_of_small_strain))
-      refuse(moved.region.where,
-             "is turned by {} degrees, must be at most {} beside fem.formulation = \"small_strain\", which "
-             "knows nothing of the way there",
-             degrees, largest_turn_of_small_strain);
-}
-
 Case read_definition(Table& root, const std::string& path, Purpose purpose = Purpose::motion) {
   Case result;
   result.file = path;
@@ -283,9 +280,11 @@ Case read_definition(Table& root, const std::string& path, Purpose purpose = Pur
   result.dynamics = read_dynamics(root);
   read_materials(root, result);
   read_boundary(root, result);
+  read_tools(root, result);
   if (purpose == Purpose::motion) check_boundary(root, result);
   read_models(root, result);
   check_dynamics(root, result);
+  check_tools(result);
   read_measures(root, result);
   check_network(root, result);
   read_surface(root, result);

@@ -43,6 +43,9 @@ void read_materials(Table& root, Case& result);
 /// Reads a region from a text: "z+ x-", "near 5 5 10", or the name of a physical group.
 Region read_region_text(const Entry& entry, const Body& body);
 
+/// Reads a region from a text, or from a table of a part or a plane.
+Region read_region_entry(const Entry& entry, const Body& body);
+
 /// Reads nearest = [...], tolerance = 2: the node nearest to a point, if it is that near.
 Region read_nearest(Table& table);
 
@@ -58,6 +61,20 @@ void read_boundary(Table& root, Case& result);
 
 /// @throws InputError where nothing holds the body, or nothing moves it
 void check_boundary(Table& root, const Case& result);
+
+/// @throws InputError where small strains meet a larger turn than they know, in a case whose models are read
+void check_turns(const Case& definition);
+
+// [[tool]]
+
+/// Reads the name of one of the tools.  @return its index
+std::size_t read_tool_index(const Entry& entry, const std::vector<Tool>& tools);
+
+/// Reads the tools into a case whose body is read.
+void read_tools(Table& root, Case& result);
+
+/// @throws InputError where tools stand beside what does not know them, in a case whose models are read
+void check_tools(const Case& definition);
 
 // [dynamics], and what a case says of time elsewhere
 

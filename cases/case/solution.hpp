@@ -43,6 +43,17 @@ struct Fields {
                                          ///< the symmetric part of the displacement gradient's mean
 };
 
+/// What a tool does to a body in equilibrium.
+struct ToolContact {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on the body, N
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero(); ///< on the body, about Tool::at as it has moved, N mm
+  double area = 0;                                  ///< surface at rest whose points are pressed, mm²
+  double penetration = 0;                           ///< the deepest of a point of the surface, mm
+  /// Forces on the nodes of the body's own mesh, N: those of points between them by the shape functions.
+  std::vector<int> nodes{};
+  std::vector<Eigen::Vector3d> on_nodes{};
+};
+
 /// A small vibration of a body.
 struct Vibration {
   double omega;         ///< angular frequency, 1/s, without damping
@@ -114,6 +125,8 @@ struct Solution {
   std::optional<Trajectory> trajectory{}; ///< a dynamic case's; all else is about its end
   /// Present if the solution was asked for after a number of iterations, equilibrium or not.
   std::optional<FromEquilibrium> from_equilibrium{};
+
+  std::vector<ToolContact> tools{}; ///< one for each of the case's tools
 
   std::optional<FieldNorms> norms{}; ///< if the case measures them, for quadratic elements and finer meshes
 

@@ -28,6 +28,7 @@ void serialize(Archive& archive, springproof::cases::Scene& scene) {
 
 SPRINGPROOF_FIELDS(springproof::cases::Fields, reaction, total_energy, has_stress, strain_energy, stress,
                    strain)
+SPRINGPROOF_FIELDS(springproof::cases::ToolContact, force, torque, area, penetration, nodes, on_nodes)
 SPRINGPROOF_FIELDS(springproof::cases::FromEquilibrium::Rest, time, steps)
 SPRINGPROOF_FIELDS(springproof::cases::FromEquilibrium, tolerance, largest, root_mean_square, reason,
                    displacement, rest)
@@ -43,10 +44,11 @@ void serialize(Archive& archive, springproof::cases::Solution& solution) {
   auto& [status, message, outcome, displacement, cell_volume, fields, sharing, unknowns, residual,
          load_reached, newton_iterations, linear_iterations, relaxation_iterations, force_evaluations,
          factorisations, lowest_eigenvalue, negative_eigenvalues, inverted_cells, trajectory,
-         from_equilibrium, norms] = solution;
+         from_equilibrium, tools, norms] = solution;
   archive(status, message, outcome, displacement, cell_volume, fields, unknowns, residual, load_reached,
           newton_iterations, linear_iterations, relaxation_iterations, force_evaluations, factorisations,
-          lowest_eigenvalue, negative_eigenvalues, inverted_cells, trajectory, from_equilibrium, norms);
+          lowest_eigenvalue, negative_eigenvalues, inverted_cells, trajectory, from_equilibrium, tools,
+          norms);
 }
 
 } // namespace cereal

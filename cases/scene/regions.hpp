@@ -31,6 +31,8 @@ void for_each_region_of(Case& definition, const Action& action) {
   for (Moved& moved : definition.moved) action(moved.region);
   for (Load& load : definition.loads) action(load.region);
   for (AddedMass& mass : definition.masses) action(mass.region);
+  for (Tool& tool : definition.tools)
+    if (tool.region) action(*tool.region);
   for (Measure& measure : definition.measures)
     for_each_region(measure, [&](Region& region, bool) { action(region); });
 }

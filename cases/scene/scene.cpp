@@ -11,6 +11,7 @@
 #include "cases/scene/loads.hpp"
 #include "cases/scene/network.hpp"
 #include "cases/scene/regions.hpp"
+#include "cases/scene/tools.hpp"
 #include "cases/scene/world.hpp"
 
 #include <Eigen/Geometry>
@@ -43,6 +44,8 @@ void add_patches(Scene& scene) {
   add_patches_of(scene.definition.moved);
   add_patches_of(scene.definition.loads);
   add_patches_of(scene.definition.masses);
+  for (const Tool& tool : scene.definition.tools)
+    if (tool.region) add_patch(*tool.region, false);
   for (const Measure& measure : scene.definition.measures) for_each_region(measure, add_patch);
 }
 
@@ -302,6 +305,7 @@ Scene make_scene(const Case& case_as_read) {
   join_cuts(scene);
   resolve_loads(scene);
   check_sizes(scene);
+  for (const Tool& tool : definition.tools) touched_faces(scene, tool);
   for (const AddedMass& added : definition.masses)
     scene.masses.push_back({select(scene.mesh, added.region), added});
   resolve_network(scene, case_as_read);

@@ -67,6 +67,18 @@ struct LeaveWorld {
     }
   }
 
+  void tool(Tool& tool) const {
+    point(tool.at);
+    direction(tool.displacement);
+    const auto of_shape = [&](auto& shape) {
+      using Shape = std::decay_t<decltype(shape)>;
+      if constexpr (std::is_same_v<Shape, tools::Cylinder> || std::is_same_v<Shape, tools::Punch>)
+        direction(shape.axis);
+      if constexpr (std::is_same_v<Shape, tools::Plane>) direction(shape.normal);
+    };
+    std::visit(of_shape, tool.shape);
+  }
+
   void material(Material& material) const {
     if (auto* const fibrous = std::get_if<TransverselyIsotropic>(&material)) direction(fibrous->fibre);
   }
@@ -114,6 +126,7 @@ std::optional<Placement> leave_world(Case& definition, std::vector<std::string>&
   for (Removed& piece : definition.removed) leave.box(piece.lower, piece.upper, piece.where);
   for (Moved& moved : definition.moved) leave.moved(moved);
   for (Load& load : definition.loads) leave.load(load);
+  for (Tool& tool : definition.tools) leave.tool(tool);
   for (Measure& measure : definition.measures) leave.measure(measure);
   for (Landmark& landmark : definition.landmarks) leave.point(landmark.point);
   return placement;

@@ -203,6 +203,7 @@ std::optional<Client> read_client(const std::vector<Question>& questions, const 
   if (n_mpi_ranks() > 1)
     throw cases::InputError("--client: a client is asked on one rank; start the command without mpirun");
   for (const Question& question : questions) {
+    cases::refuse_tools(question.scene.definition, "--client", "its protocol has no tools");
     cases::refuse_network(question.scene.definition, "--client",
                           "run without it solves the springs of the network");
     check_displacements_suffice(question.scene.definition, "--client");

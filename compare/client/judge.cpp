@@ -211,6 +211,7 @@ bool JudgedCase::has_failed() const {
 }
 
 Judge::Judge(cases::Scene scene, int meshes, Parts parts) : scene_(std::move(scene)), parts_(parts) {
+  cases::refuse_tools(scene_.definition, "judge and league", "the protocol of clients has no tools");
   cases::refuse_network(scene_.definition, "judge and league, whose programs are told cells",
                         "run solves the springs of the network");
   if (scene_.definition.measures.empty())

@@ -256,6 +256,7 @@ msm::Points prescribed(const msm::Problem& problem) {
 }
 
 msm::Problem exported_problem(const cases::Scene& scene) {
+  cases::refuse_tools(scene.definition, "export", "the files have no words for tools");
   msm::Problem problem = msm::make_problem(scene);
   problem.lattice = msm::make_lattice(scene.mesh, springs_as_solved(scene, design_for(scene)));
   return problem;

@@ -201,6 +201,14 @@ struct ZeroOfValues {
     return relative_zero * largest_norm(solution.fields->strain, solution);
   }
   double operator()(const measures::Curvature&) const { return length() / (size() * size()); }
+  double operator()(const measures::ToolForce& kind) const {
+    return relative_zero * solution.tools[kind.tool].force.norm();
+  }
+  double operator()(const measures::ToolTorque& kind) const {
+    return relative_zero * size() * solution.tools[kind.tool].force.norm();
+  }
+  double operator()(const measures::ContactArea&) const { return relative_zero * size() * size(); }
+  double operator()(const measures::Penetration&) const { return length(); }
   double operator()(const measures::Volume&) const { return 0; }       // none is zero
   double operator()(const measures::StrainEnergy&) const { return 0; } // nor that of what is deformed
 
@@ -238,6 +246,15 @@ struct Evaluation {
     return largest_curvature(kind, scene, solution);
   }
 
+  double operator()(const measures::ToolForce& kind) const {
+    return component_of(solution.tools[kind.tool].force, kind.component);
+  }
+  double operator()(const measures::ToolTorque& kind) const {
+    return component_of(solution.tools[kind.tool].torque, kind.component);
+  }
+  double operator()(const measures::ContactArea& kind) const { return solution.tools[kind.tool].area; }
+  double operator()(const measures::Penetration& kind) const { return solution.tools[kind.tool].penetration; }
+
   double at_nodes() const {
     const NodeMeasure of_nodes(measure, scene);
     const double value = of_nodes.at([&](int node) -> Vector3d {
@@ -260,6 +277,7 @@ struct Evaluation {
 } // namespace
 
 bool can_evaluate(const cases::Measure& measure, const cases::Solution& solution) {
+  if (cases::is_of_tools(measure.kind)) return !solution.tools.empty();
   if (!cases::is_of_fields(measure.kind)) return true;
   return solution.fields && (solution.fields->has_stress || !cases::is<measures::Stress>(measure));
 }

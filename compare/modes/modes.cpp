@@ -260,6 +260,7 @@ std::vector<MatchedModes> match_modes(const Vibrations& fem, const Vibrations& m
 
 VibrationStudy study_vibrations(const cases::Scene& scene, const std::vector<cases::Design>& designs,
                                 int n_modes) {
+  cases::refuse_tools(scene.definition, "eigen", "vibrations are those of a body that nothing touches");
   const bool is_network = !cases::has_cells(scene.definition.body);
   if (is_network && scene.node_masses.empty())
     std::get<cases::Network>(scene.definition.body)

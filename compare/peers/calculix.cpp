@@ -141,6 +141,7 @@ std::optional<std::string> reason_without_calculix_motion(const cases::Case& def
 
 std::optional<std::string> reason_without_calculix(const cases::Case& definition) {
   if (!definition.moved.empty()) return "its input has no moved regions";
+  if (!definition.tools.empty()) return "its input has no tools";
   if (definition.dynamics) return reason_without_calculix_motion(definition);
   if (std::any_of(definition.loads.begin(), definition.loads.end(),
                   [](const cases::Load& load) { return load.on() == cases::loads::On::masses; }))

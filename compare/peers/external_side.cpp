@@ -197,6 +197,8 @@ std::optional<ExternalDisplacements> read_external(const std::vector<Question>& 
         fmt::format("--msm-displacements: belongs to one case, {} are given", questions.size()));
   cases::refuse_network(questions.front().scene.definition, "--msm-displacements",
                         "give the body as a mesh of cells, in whose nodes they are");
+  cases::refuse_tools(questions.front().scene.definition, "--msm-displacements",
+                      "displacements alone do not tell what a tool does");
   check_displacements_suffice(questions.front().scene.definition, "--msm-displacements");
   const cases::Scene& scene = questions.front().scene;
   if (scene.definition.dynamics) {

@@ -163,6 +163,7 @@ std::optional<std::string> reason_without_getfem(const cases::Scene& scene) {
   const cases::Case& definition = scene.definition;
   if (!cases::has_cells(definition.body)) return "a network has no cells";
   if (definition.dynamics) return "its solves are static";
+  if (!definition.tools.empty()) return "its input has no tools";
   if (!cases::is_isotropic(definition.material)) return "its input has isotropic materials";
   if (!scene.masses.empty()) return "its input has no added masses";
   if (std::any_of(scene.loads.begin(), scene.loads.end(),

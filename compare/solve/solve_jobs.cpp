@@ -87,8 +87,10 @@ std::vector<Question> read_questions(const std::vector<std::string>& case_files,
     if (request.asks(cases::Side::fem)) cases::check_finite_elements(definition);
     if (!request.peer.empty())
       cases::refuse_network(definition, "--peer", "leave it out, or solve the finite elements' own body");
-    if (n_mpi_ranks() > 1)
+    if (n_mpi_ranks() > 1) {
       cases::refuse_network(definition, "several ranks", "start the command without mpirun");
+      cases::refuse_tools(definition, "several ranks", "start the command without mpirun");
+    }
     questions.push_back({make_scene_within_memory(definition), request});
   }
   if (n_mpi_ranks() > 1) {

@@ -341,6 +341,7 @@ class Search {
 /// @return the step of a motion's reference, s: a whole part of a frame, no longer than the case's own
 double set_frames(Sweep& sweep) {
   cases::Case& definition = sweep.definition;
+  cases::refuse_tools(definition, "sweep --at", "steps in real time know no contact");
   cases::refuse_network(definition, "sweep --at, which designs springs for cells",
                         "judge --method steps the springs of the network");
   if (!definition.material_dynamics.density)

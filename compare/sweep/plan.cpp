@@ -209,6 +209,7 @@ Plan plan_sweep(const cases::Case& definition, Extent extent) {
   };
   refuse_if(!std::holds_alternative<cases::LinearElastic>(definition.material),
             "material.model: a sweep has small strain too, so it must be \"linear_elastic\"");
+  cases::refuse_tools(definition, "a sweep", "its displacements are interpolated between grids");
   refuse_if(definition.dynamics.has_value(), "dynamics: a sweep is of equilibria, so it must be left out");
   refuse_if(definition.msm.exponent.has_value(),
             "msm.law: a sweep solves every design with the springs that are its own, so it must be left out");

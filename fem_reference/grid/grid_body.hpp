@@ -2,6 +2,7 @@
 
 #include "fem_reference/element_fields.hpp"
 #include "fem_reference/grid/grid_equations.hpp"
+#include "mechanics/contact/contact.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 #include "mechanics/state_on_mesh.hpp"
 
@@ -25,6 +26,10 @@ class GridBody {
   mechanics::StateOnMesh on_mesh() const;
   /// Rest positions and displacements (mm) of element nodes, 6 numbers each; one rank lists each node.
   std::vector<double> node_displacements(const mechanics::Vector& state) const;
+
+  /// None: bodies with tools are assembled.
+  mechanics::Contact* contact() { return nullptr; }
+  std::vector<cases::ToolContact> tools(const mechanics::Vector&, double) const { return {}; }
 
   /// Adds a first guess for a path from rest, by coarser grids.
   void add_guess(mechanics::EquilibriumSettings& settings) const;

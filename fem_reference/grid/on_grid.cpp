@@ -43,7 +43,7 @@ mechanics::ElasticModuli moduli_at_rest(const cases::Material& material) {
 
 bool is_on_grid(const cases::Scene& scene) {
   const cases::Fem& fem = scene.definition.fem;
-  if (!scene.mesh.grid) return false;
+  if (!scene.mesh.grid || !scene.definition.tools.empty()) return false;
   if (fem.element == cases::Element::q2_p1) return false;
   if (scene.definition.dynamics && fem.element == cases::Element::q2) return false; // has no masses there
   if (cases::has_memory(scene.definition)) return false;

@@ -50,11 +50,14 @@ class DirectSystem : public SpringSystem {
     ++work_.force_evaluations;
     residual = load_factor * load_ +
                on_free(problem_, internal_force_at(problem_.lattice, to_points(problem_, displacement)));
+    if (problem_.contact) residual += on_free(problem_, contact_force(displacement, load_factor));
   }
 
   double energy(const Vector& displacement, double load_factor) override {
-    return energy_at(problem_.lattice, to_points(problem_, displacement)) -
-           load_factor * load_.dot(displacement);
+    const double of_springs = energy_at(problem_.lattice, to_points(problem_, displacement)) -
+                              load_factor * load_.dot(displacement);
+    if (!problem_.contact) return of_springs;
+    return of_springs + problem_.contact->energy(displacements(displacement), load_factor);
   }
 
   std::optional<bool> is_stable(const Vector& displacement) override {
@@ -150,6 +153,42 @@ class DirectSystem : public SpringSystem {
   std::optional<std::tuple<Vector, Clamp, double>> factorised_; ///< displacement, term and shift
   bool is_definite_ = false;
 
+  // with tools
+  double load_factor_ = 0;                       ///< of the last residual, where the tools are
+  std::optional<std::pair<double, int>> seen_{}; ///< load factor and multipliers of what is factorised
+  Tangent::Matrix in_contact_;                   ///< the tangent with theirs
+
+  mechanics::DisplacementAt displacements(const Vector& displacement) const {
+    return [points = to_points(problem_, displacement)](int node) { return points[cases::index(node)]; };
+  }
+
+  /// Returns the forces of tools on all points, N.
+  Points contact_force(const Vector& displacement, double load_factor) {
+    load_factor_ = load_factor;
+    Points force(problem_.mesh.nodes.size(), Eigen::Vector3d::Zero());
+    problem_.contact->for_each_pressed(displacements(displacement), load_factor, [&](const auto& pressed) {
+      force[cases::index(pressed.node)] += pressed.force;
+    });
+    return force;
+  }
+
+  /// Returns the springs' tangent with that of the tools. Every point of the surface has springs, and a block
+  /// of its own in the pattern.
+  const Tangent::Matrix& with_contact(const Vector& displacement, Clamp clamp) {
+    in_contact_ = *matrix_;
+    const std::vector<int>& number = tangent_->free_number();
+    problem_.contact->for_each_pressed(displacements(displacement), load_factor_, [&](const auto& pressed) {
+      const Eigen::Matrix3d block = clamp == Clamp::yes ? pressed.stiffness : pressed.tangent();
+      for (int c = 0; c < 3; ++c)
+        for (int r = c; r < 3; ++r) {
+          const int row = number[cases::index(3 * pressed.node + r)],
+                    column = number[cases::index(3 * pressed.node + c)];
+          if (row >= 0 && column >= 0) in_contact_.coeffRef(row, column) += block(r, c);
+        }
+    });
+    return in_contact_;
+  }
+
   bool has_negative_springs() const {
     const auto& links = problem_.lattice.links;
     return std::any_of(links.begin(), links.end(), [](const Link& l) { return l.spring.stiffness < 0; });
@@ -169,6 +208,9 @@ class DirectSystem : public SpringSystem {
     double squared = 0;
     for (std::size_t d = 0; d < problem_.is_constrained.size(); ++d)
       if (problem_.is_constrained[d]) squared += std::pow(force[d / 3][static_cast<int>(d % 3)], 2);
+    if (problem_.contact)
+      for (const Eigen::Vector3d& pressed : contact_force(displacement, load_factor_))
+        squared += pressed.squaredNorm();
     return std::sqrt(squared);
   }
 
@@ -197,6 +239,10 @@ class DirectSystem : public SpringSystem {
 
   /// Factorises tangent + shift unless that is what is there. @return whether it is positive definite
   bool factorise(const Vector& displacement, Clamp clamp, double shift) {
+    if (problem_.contact && seen_ != std::optional(std::pair(load_factor_, problem_.contact->revision()))) {
+      seen_.emplace(load_factor_, problem_.contact->revision());
+      factorised_.reset();
+    }
     if (factorised_ == std::tie(displacement, clamp, shift)) return is_definite_;
     const OneThread one;
     if (!tangent_) {
@@ -204,6 +250,7 @@ class DirectSystem : public SpringSystem {
       factorisation_.analyse(tangent_->assemble(problem_.lattice.rest, Clamp::no));
     }
     matrix_ = &tangent_->assemble(positions(problem_, displacement), clamp);
+    if (problem_.contact) matrix_ = &with_contact(displacement, clamp);
     diagonal_ = matrix_->diagonal();
     ++work_.factorisations;
     factorised_.reset();

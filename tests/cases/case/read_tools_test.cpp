@@ -1,0 +1,90 @@
+#include "cases/case/readers.hpp"
+#include "tests/support/case_text.hpp"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+using namespace springproof;
+
+using namespace cases;
+using namespace case_text;
+
+namespace {
+
+const std::string load = "[[load]]\nregion = 'z+'\nkind = 'nodal_force'\nvalue = [0.002, 0, 0.0]\n";
+
+std::string pressed(const std::string& tools) {
+  return replaced(good_case, load, tools);
+}
+
+const std::string ball = "[[tool]]\nname = 'ball'\nshape = 'sphere'\ncentre = [5, 5, 14]\nradius = 4\n"
+                         "displacement = [0, 0, -1]\n";
+
+} // namespace
+
+TEST_CASE("tools of every shape are read, and one that moves takes the place of a load") {
+  const Case c = read_text(pressed(
+      ball + "steps = 3\n[[tool]]\nname = 'bar'\nshape = 'cylinder'\ncentre = [5, 5, 20]\nradius = 4\n"
+             "axis = 'y'\n[[tool]]\nname = 'punch'\nshape = 'punch'\ncentre = [5, 5, 30]\nradius = 4\n"
+             "axis = [0, 0, -2]\n[[tool]]\nname = 'floor'\nshape = 'plane'\npoint = [0, 0, -1]\n"
+             "normal = 'z'\nregion = 'z-'\n"));
+  CHECK(c.loads.empty());
+  REQUIRE(c.tools.size() == 4);
+  CHECK(c.tools[0].name == "ball");
+  CHECK(std::get<tools::Sphere>(c.tools[0].shape).radius == 4);
+  CHECK(c.tools[0].at == Eigen::Vector3d(5, 5, 14));
+  CHECK(c.tools[0].displacement == Eigen::Vector3d(0, 0, -1));
+  CHECK(least_load_steps(c) == 3);
+  CHECK(std::get<tools::Cylinder>(c.tools[1].shape).axis == Eigen::Vector3d::UnitY());
+  CHECK(std::get<tools::Punch>(c.tools[2].shape).axis == -Eigen::Vector3d::UnitZ());
+  CHECK(std::get<tools::Plane>(c.tools[3].shape).normal == Eigen::Vector3d::UnitZ());
+  CHECK(c.tools[3].region->name == "z-");
+  CHECK_FALSE(c.tools[0].region);
+}
+
+TEST_CASE("measures of a tool are read by its name") {
+  const Case c = read_text(
+      replaced(pressed(ball), "[[measure]]",
+               "[[measure]]\nname = 'force'\nkind = 'tool_force'\ntool = 'ball'\ncomponent = 'z'\n"
+               "[[measure]]\nname = 'torque'\nkind = 'tool_torque'\ntool = 'ball'\ncomponent = 'norm'\n"
+               "[[measure]]\nname = 'area'\nkind = 'contact_area'\ntool = 'ball'\n"
+               "[[measure]]\nname = 'depth'\nkind = 'penetration'\ntool = 'ball'\n[[measure]]"));
+  CHECK(std::get<measures::ToolForce>(c.measures[0].kind).component == Component::z);
+  CHECK(std::get<measures::ToolTorque>(c.measures[1].kind).component == Component::norm);
+  CHECK(is<measures::ContactArea>(c.measures[2]));
+  CHECK(is<measures::Penetration>(c.measures[3]));
+}
+
+TEST_CASE("a mistake in a tool is refused where it stands, with what is allowed") {
+  const std::string good = pressed(ball);
+  const auto refused = mistakes_in(good);
+  const auto line_of = [&](const std::string& text) {
+    return 1 + static_cast<int>(std::count(good.begin(), good.begin() + long(good.find(text)), '\n'));
+  };
+  refused("'sphere'", "'cube'", line_of("shape = 'sphere'"), "tool[0].shape",
+          {"\"sphere\" | \"cylinder\" | \"punch\" | \"plane\""});
+  refused("radius = 4", "radius = 0", line_of("radius = 4"), "tool[0].radius", {"a number above 0 (mm)"});
+  refused("radius = 4", "radius = 4\naxis = 'z'", line_of("radius = 4") + 1, "tool[0].axis",
+          {"left out: it belongs to another shape than \"sphere\""});
+  refused("displacement = [0, 0, -1]", "displacement = 1", line_of("displacement"), "tool[0].displacement",
+          {"three finite numbers (mm)"});
+  refused("displacement = [0, 0, -1]\n", "", 1, "load", {"[[tool]] with a displacement"});
+  refused(ball, ball + ball, line_of("name = 'ball'") + 6, "tool[1].name", {"a new name"});
+  refused("kind = 'tilt'", "kind = 'tool_force'\ntool = 'bell'", line_of("kind = 'tilt'") + 1,
+          "measure[0].tool", {"\"ball\""});
+  refused("design = 'moduli'", "design = 'moduli'\nsolver = 'fire'", line_of("[[tool]]"), "tool[0]",
+          {"left out beside another solver than \"newton\""});
+}
+
+TEST_CASE("a motion refuses tools, and a measure of a tool a case without one") {
+  check_case_refused(
+      replaced(dynamic_case, "[[load]]", ball + "[[load]]"),
+      1 + static_cast<int>(std::count(dynamic_case.begin(),
+                                      dynamic_case.begin() + long(dynamic_case.find("[[load]]")), '\n')),
+      "tool[0]", {"left out beside [dynamics]", "in statics alone"});
+  check_case_refused(
+      replaced(good_case, "kind = 'tilt'", "kind = 'penetration'\ntool = 'ball'"),
+      2 + static_cast<int>(
+              std::count(good_case.begin(), good_case.begin() + long(good_case.find("kind = 'tilt'")), '\n')),
+      "measure[0].tool", {"the case has none"});
+}

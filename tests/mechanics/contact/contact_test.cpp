@@ -1,0 +1,105 @@
+#include "mechanics/contact/contact.hpp"
+
+#include "mechanics/contact/signed_distance.hpp"
+#include "tests/support/bodies.hpp"
+#include "tests/support/quarter_block.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace springproof;
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using mechanics::Contact;
+
+namespace {
+
+cases::Scene pressed_box(std::vector<cases::Tool> tools) {
+  cases::Case definition = bodies::clamped_box({4, 3, 2}, {});
+  definition.tools = std::move(tools);
+  return cases::make_scene(definition);
+}
+
+/// Sum over the pressed points.
+struct Pushed {
+  Vector3d force = Vector3d::Zero();
+  Matrix3d tangent = Matrix3d::Zero();
+};
+
+/// What a tool does where all points have moved alike.
+Pushed pushed(const Contact& contact, const Vector3d& by) {
+  Pushed all;
+  contact.for_each_pressed([&](int) { return by; }, 1,
+                           [&](const Contact::Pressed& pressed) {
+                             all.force += pressed.force;
+                             all.tangent += pressed.tangent();
+                           });
+  return all;
+}
+
+} // namespace
+
+TEST_CASE("surface points have the area of what a tool may touch, without planes of symmetry") {
+  cases::Tool tool = quarter_block::pressed_down(cases::tools::Plane{-Vector3d::UnitZ()}, {0, 0, 2}, 0.1);
+  const auto area = [&](const cases::Scene& scene) {
+    double sum = 0;
+    for (const auto& point : mechanics::tool_sides(scene).front().points) sum += point.area;
+    return sum;
+  };
+  CHECK(area(pressed_box({tool})) == Approx(2 * (4 * 3 + 4 * 2 + 3 * 2)));
+  tool.region = bodies::region("z+");
+  CHECK(area(pressed_box({tool})) == Approx(4 * 3));
+  tool.region.reset();
+  cases::Case half = bodies::clamped_box({4, 3, 2}, {});
+  half.symmetry = {{bodies::region("x-"), {true, false, false}}};
+  half.tools = {tool};
+  CHECK(area(cases::make_scene(half)) == Approx(2 * (4 * 3 + 4 * 2 + 3 * 2) - 3 * 2));
+}
+
+TEST_CASE("forces of tools are minus the slope of their potential, before and after multipliers change") {
+  const cases::tools::Kind shapes[] = {
+      cases::tools::Sphere{3}, cases::tools::Cylinder{3, Vector3d(0.6, 0.8, 0)},
+      cases::tools::Punch{1.3, -Vector3d::UnitZ()}, cases::tools::Plane{Vector3d(0.1, 0, -1).normalized()}};
+  constexpr double h = 1e-6; // mm; central differences then err by 1e-9 and less of forces of some N
+  for (const auto& shape : shapes) {
+    const bool is_round = shape.index() < 2;
+    cases::Tool tool = quarter_block::pressed_down(shape, {2.1, 1.4, is_round ? 5. : 2.}, 0.25);
+    Contact contact(mechanics::tool_sides(pressed_box({tool})));
+    for (const Vector3d& by : {Vector3d(0.01, 0.02, 0.03), Vector3d(-0.02, 0.01, -0.05)}) {
+      const Pushed here = pushed(contact, by);
+      INFO(cases::name_of(shape));
+      REQUIRE(here.force.norm() > 0);
+      for (int c = 0; c < 3; ++c) {
+        const Vector3d to = by + h * Vector3d::Unit(c), from = by - h * Vector3d::Unit(c);
+        const double slope =
+            (contact.energy([&](int) { return to; }, 1) - contact.energy([&](int) { return from; }, 1)) /
+            (2 * h);
+        CHECK(std::abs(slope + here.force[c]) < 1e-6 * here.force.norm());
+        const Vector3d change = (pushed(contact, to).force - pushed(contact, from).force) / (2 * h);
+        CHECK((change + here.tangent.col(c)).norm() < 1e-5 * here.tangent.norm());
+      }
+      contact.augment([&](int) { return by; }, 1);
+    }
+  }
+}
+
+TEST_CASE("a multiplier takes the pressure's value, and a point that leaves is pressed no more") {
+  const cases::Tool tool =
+      quarter_block::pressed_down(cases::tools::Plane{-Vector3d::UnitZ()}, {0, 0, 2}, 0.1);
+  Contact contact(mechanics::tool_sides(pressed_box({tool})));
+  const auto at_rest = [](int) -> Vector3d { return Vector3d::Zero(); };
+  const auto below = [](int) -> Vector3d { return {0, 0, -0.1}; }; // the top is where the plane is
+  const auto away = [](int) -> Vector3d { return {0, 0, -1}; };
+  const double force = contact.found(at_rest, 1).front().force.z();
+  CHECK(force < 0);
+  CHECK(contact.found(at_rest, 1).front().penetration == Approx(0.1));
+  CHECK(contact.found(at_rest, 1).front().area == Approx(4 * 3)); // the top's: the plane does not face sides
+  CHECK(contact.found(below, 1).front().force.norm() < 1e-9 * std::abs(force));
+  contact.augment(at_rest, 1);
+  CHECK(contact.found(below, 1).front().force.z() == Approx(force));
+  CHECK(contact.misfit(below, 1).is_small());
+  CHECK_FALSE(contact.misfit(at_rest, 1).is_small());
+  CHECK(contact.found(away, 1).front().force.norm() == 0);
+  contact.forget();
+  CHECK(contact.found(below, 1).front().force.norm() < 1e-9 * std::abs(force));
+}
