@@ -111,7 +111,7 @@ void EquilibriumEquations::add_contact(const State& state, double load_factor, W
 std::vector<cases::ToolContact> AssembledBody::tools(const State& state, double load_factor) {
   if (!contact()) return {};
   const Nodes& nodes = discretisation.nodes;
-  std::vector<std::size_t> place(nodes.point.size()); // of each node among those of the cells
+  std::vector<std::size_t> place(nodes.point.size()); // where each node is among those of the cells
   for (std::size_t i = 0; i < nodes.of_cell.size(); ++i) place[index(nodes.of_cell[i])] = i;
   auto all = contact()->found([&](int node) -> Vector3d { return state.segment<3>(3 * node); }, load_factor);
   for (cases::ToolContact& tool : all) {

@@ -33,7 +33,7 @@ class MovedBody {
   virtual void draw_to(const Eigen::Vector3d& target) = 0;      ///< mm, a displacement
   virtual Eigen::Vector3d place(const Vector& state) const = 0; ///< mm, its displacement
   virtual Eigen::Vector3d force(const Vector& state) const = 0; ///< N
-  virtual void remember_pull(const Vector& state) = 0;          ///< of the step that has ended
+  virtual void remember_pull(const Vector& state) = 0;          ///< once a step has ended
 
   /// How a step is made: "xpbd, 10 iterations, 1 substep".
   virtual std::string method_text() const = 0;

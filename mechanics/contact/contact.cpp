@@ -97,7 +97,7 @@ double Contact::energy(const DisplacementAt& displacement, double load_factor) c
 
 Contact::Misfit Contact::misfit(const DisplacementAt& displacement, double load_factor) const {
   Misfit found;
-  double indentation = 0, way = 0; // of the body at rest; of points that are pressed
+  double indentation = 0, way = 0; // mm: how deep the body at rest is met; how far points are pressed
   for_each_point(displacement, load_factor,
                  [&](std::size_t s, std::size_t i, const SignedDistance& distance, double pressure) {
                    const auto& [tool, points] = sides_[s];

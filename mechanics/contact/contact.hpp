@@ -47,7 +47,7 @@ class Contact {
   struct Pressed {
     int node;
     Eigen::Vector3d force;     ///< on the body, N
-    Eigen::Matrix3d stiffness; ///< of the penalty, N/mm, >= 0
+    Eigen::Matrix3d stiffness; ///< the penalty's, N/mm, >= 0
     Eigen::Matrix3d softening; ///< by the tool's curvature, N/mm, >= 0 and subtracted
     Eigen::Matrix3d tangent() const { return stiffness - softening; }
   };

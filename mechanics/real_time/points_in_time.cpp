@@ -77,7 +77,7 @@ void PointsInTime::residual(const Vector& at, double /*load_factor*/, Expect /*e
 }
 
 double PointsInTime::size_of_pull(const Vector& at) const {
-  double squares = 0; // of the weights
+  double squares = 0; // sum over the weights
   for (const auto& [point, weight] : pull_->weights) squares += weight * weight;
   return std::sqrt(squares) * pull_->force(to_points(at)).norm();
 }

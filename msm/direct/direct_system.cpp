@@ -154,7 +154,7 @@ class DirectSystem : public SpringSystem {
   bool is_definite_ = false;
 
   // with tools
-  double load_factor_ = 0;                       ///< of the last residual, where the tools are
+  double load_factor_ = 0;                       ///< the last residual's, where the tools are
   std::optional<std::pair<double, int>> seen_{}; ///< load factor and multipliers of what is factorised
   Tangent::Matrix in_contact_;                   ///< the tangent with theirs
 

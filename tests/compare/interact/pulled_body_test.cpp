@@ -1,3 +1,4 @@
+#include "compare/solve/springs.hpp"
 #include "tests/compare/interact/block.hpp"
 
 #include "cases/mesh/triangle_mesh.hpp"

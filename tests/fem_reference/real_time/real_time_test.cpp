@@ -277,7 +277,7 @@ TEST_CASE("elements come to rest in balance with a spring that holds a place of 
     CAPTURE(place.transpose(), motion.work().residual);
     CHECK(place.z() > 0.4);
     CHECK(place.z() < 3.6);
-    CHECK(motion.work().residual < 0.02); // of the pull, which is all that acts
+    CHECK(motion.work().residual < 0.02); // relative to the pull, which is all that acts
     points.let_go();
     for (int n = 501; n <= 1000; ++n) motion.advance(0.01 * n);
     CHECK(mechanics::to_points(motion.now().displacement)[tip].norm() < 1e-6 * place.z());
