@@ -30,12 +30,12 @@ PlacesInCells places_in_cells(const cases::Scene& network, const cases::Mesh& me
   } catch (const std::runtime_error& error) {
     throw cases::InputError(body.nodes.where, fmt::format("[fem.body]: {}", error.what()));
   }
-  const double rounding = 1e-6 * cases::bounding_box(mesh.nodes).diagonal().norm();
+  const double undecided = 1e-6 * cases::bounding_box(mesh.nodes).diagonal().norm();
   for (std::size_t n = 0; n < found.nodes.vertices.size(); ++n) {
     const cases::CellPoint& place = found.nodes.vertices[n].place;
     const cases::CellCorners corners = cases::cell_corners(mesh, place.cell);
     const double distance = (found.nodes.rest.vertices[n] - cases::image(corners, place.at)).norm();
-    if (distance <= rounding) continue;
+    if (distance <= undecided) continue;
     ++found.n_outside;
     found.largest_distance = std::max(found.largest_distance, distance);
     if (!(distance <= cases::bounding_box(corners).diagonal().norm() / 2))
