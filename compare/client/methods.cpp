@@ -3,7 +3,7 @@
 #include "cases/case/elements.hpp"
 #include "cases/case/error.hpp"
 #include "cases/case/input_file.hpp"
-#include "compare/write/quote.hpp"
+#include "compare/provenance/print.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
