@@ -128,7 +128,7 @@ void settle_element(Case& definition, bool is_tetrahedron) {
 
 std::string steps_needed(ElementMethod method, const Material& material) {
   const std::string model = name_of(material);
-  if (method != ElementMethod::total_lagrangian_explicit && model != LinearElastic::name)
+  if (!has_law_of_case(method) && model != LinearElastic::name)
     return "of method = \"" + name_of(ElementMethod::total_lagrangian_explicit) + "\" with model = \"" +
            model + "\": the laws of the others are those of \"" + LinearElastic::name + "\" materials";
   return needs_pressure(material)

@@ -32,6 +32,11 @@ inline bool is_explicit(ElementMethod method) {
   return method == ElementMethod::total_lagrangian_explicit;
 }
 
+/// Whether a method moves elements of the case's formulation, not of a law of its own.
+inline bool has_law_of_case(ElementMethod method) {
+  return method == ElementMethod::total_lagrangian_explicit;
+}
+
 using ElementRealTime = StepsBy<ElementMethod>;
 
 } // namespace springproof::cases

@@ -108,12 +108,11 @@ JudgedRow fem_row(const Basis& basis) {
   return row;
 }
 
-/// How a model is solved within limits, whether it may be left with a residual, and whose parts are not
-/// known.
+/// A model of ours as a row asks it.
 struct OwnModel {
   std::function<Answer(const mechanics::StepLimits&)> solve;
-  bool is_solved;
-  std::string without_parts{}; ///< why; empty: its parts are told
+  bool is_solved;              ///< nothing is left by iterations
+  std::string without_parts{}; ///< why the parts of its error are not told; empty: they are
 };
 
 OwnModel springs_of(const cases::Scene& scene) {

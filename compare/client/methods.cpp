@@ -126,6 +126,7 @@ std::vector<std::string> set_steps(cases::Scene& scene, const cases::ElementReal
   if (std::find(taken.begin(), taken.end(), fem.element) == taken.end()) fem.element = taken.front();
   std::vector<std::string> ignored;
   if (std::exchange(fem.refine, 0) > 0) ignored.emplace_back("fem.refine");
+  if (!cases::has_law_of_case(real_time.method)) ignored.push_back("fem.formulation, for a law of its own");
   lump(fem.mass, cases::ElementMass::lumped, definition, ignored);
   const std::vector<std::string> others = leave_to_steps(definition);
   ignored.insert(ignored.end(), others.begin(), others.end());

@@ -41,8 +41,8 @@ struct LeastSquares {
   Eigen::VectorXd lower, upper;            ///< ends of 95 % intervals; empty where the data leave some open
   std::vector<std::string> undetermined{}; ///< combinations of the parameters that the data leave open
   /// Singular values belong to the Jacobian whose columns are relative changes of the parameters, and whose
-  /// rows are divided by the data's standard deviations; descending. 1/s is the relative standard deviation
-  /// of a combination.
+  /// rows are divided by the data's standard deviations; descending. A combination has the relative standard
+  /// deviation 1/s.
   std::vector<double> singular_values{};
   Eigen::VectorXd predicted; ///< all data, those too that were left out
   double deviation_factor;   ///< standard deviations in units of Observations::deviations; 1 where measured

@@ -172,8 +172,8 @@ class DirectSystem : public SpringSystem {
     return force;
   }
 
-  /// Returns the springs' tangent with that of the tools. Every point of the surface has springs, and a block
-  /// of its own in the pattern.
+  /// Returns the springs' tangent with that of the tools. Every point of the surface has springs, so that the
+  /// pattern has its block.
   const Tangent::Matrix& with_contact(const Vector& displacement, Clamp clamp) {
     in_contact_ = *matrix_;
     const std::vector<int>& number = tangent_->free_number();
