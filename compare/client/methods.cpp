@@ -67,6 +67,20 @@ AnyMethod method_of(const Steps& steps) {
   return std::visit([](const auto& by) -> AnyMethod { return by.method; }, steps);
 }
 
+std::string text_of(const Steps& steps) {
+  std::string text = name_of(method_of(steps));
+  const auto add = [&](const char* what, int n) {
+    text += fmt::format(", {} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  std::visit(
+      [&](const auto& by) {
+        if (!cases::is_explicit(by.method)) add("iteration", by.iterations);
+        if (by.substeps) add("substep", *by.substeps);
+      },
+      steps);
+  return text;
+}
+
 Steps steps_in(const AnyMethod& method, const ClientBudget& budget) {
   const auto by = [&](auto of) -> Steps {
     cases::StepsBy<decltype(of)> steps;

@@ -24,6 +24,9 @@ std::optional<AnyMethod> method_called(const std::string& name);
 std::vector<std::string> method_names();
 AnyMethod method_of(const Steps& steps);
 
+/// "xpbd, 1 iteration, 50 substeps", without what explicit methods or the steps have not.
+std::string text_of(const Steps& steps);
+
 /// Steps by a method within a budget, but for its substeps.
 Steps steps_in(const AnyMethod& method, const ClientBudget& budget);
 

@@ -37,14 +37,12 @@ mechanics::IntegrationSettings steps_of(const cases::Scene& scene, const msm::Sp
 
 class Springs : public MovedBody {
  public:
-  Springs(const cases::Scene& scene, const msm::DesignResult& design, int n_threads)
-      : given_(scene.definition.msm), body_(scene, design.springs, options(n_threads)),
-        steps_(steps_of(scene, design.springs)) {
+  Springs(const cases::Scene& scene, const msm::SpringBody& springs, int n_threads)
+      : given_(scene.definition.msm), body_(scene, springs, options(n_threads)),
+        steps_(steps_of(scene, springs)) {
     Points points(scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
     if (scene.definition.dynamics->start == cases::MotionStart::equilibrium)
-      points = msm::Model(cases::scene_before_start(scene), design.springs, options(n_threads))
-                   .solve()
-                   .displacement;
+      points = msm::Model(cases::scene_before_start(scene), springs, options(n_threads)).solve().displacement;
     start_ = body_.to_vector(points);
   }
 
@@ -127,7 +125,12 @@ class Elements : public MovedBody {
 } // namespace
 
 std::unique_ptr<MovedBody> moved_springs(const cases::Scene& scene, int n_threads) {
-  return std::make_unique<Springs>(scene, design_for(scene), n_threads);
+  return moved_springs(scene, design_for(scene).springs, n_threads);
+}
+
+std::unique_ptr<MovedBody> moved_springs(const cases::Scene& scene, const msm::SpringBody& springs,
+                                         int n_threads) {
+  return std::make_unique<Springs>(scene, springs, n_threads);
 }
 
 std::unique_ptr<MovedBody> moved_elements(const cases::Scene& scene, int n_threads) {

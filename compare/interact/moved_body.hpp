@@ -3,6 +3,7 @@
 #include "cases/mesh/mesh.hpp"
 #include "cases/scene/scene.hpp"
 #include "mechanics/dynamics/time_integrator.hpp"
+#include "msm/spring_body.hpp"
 
 #include <memory>
 #include <vector>
@@ -41,6 +42,9 @@ class MovedBody {
 
 /// @throws InputError when springs cannot be designed or start
 std::unique_ptr<MovedBody> moved_springs(const cases::Scene& scene, int n_threads);
+/// The same of springs that are designed already.
+std::unique_ptr<MovedBody> moved_springs(const cases::Scene& scene, const msm::SpringBody& springs,
+                                         int n_threads);
 /// By [fem] real_time of the scene, which must outlive it.
 /// @throws InputError when elements cannot be stepped, SolveError when they cannot start
 std::unique_ptr<MovedBody> moved_elements(const cases::Scene& scene, int n_threads);

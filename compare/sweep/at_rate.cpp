@@ -1,6 +1,5 @@
 #include "compare/sweep/at_rate.hpp"
 
-#include "cases/case/names.hpp"
 #include "compare/client/judge.hpp"
 #include "compare/measure/box_plot.hpp"
 #include "compare/sweep/stepped_body.hpp"
@@ -21,7 +20,7 @@ constexpr double kept_designs = 0.25;    ///< part of those with springs in equi
 
 struct Candidate {
   std::size_t body;
-  cases::RealTime steps;
+  Steps steps;
   double seconds_a_frame;
   VariantRun run{};
   std::optional<double> error{};
@@ -30,6 +29,25 @@ struct Candidate {
 /// Whether other cells of the body can be made, and displacements be interpolated between them.
 bool has_levels(const cases::Case& definition) {
   return std::holds_alternative<cases::Box>(definition.body) && definition.removed.empty();
+}
+
+/// The same method with no more iterations and no more substeps.
+bool is_less_work(const Steps& one, const Steps& than) {
+  return std::visit(
+      [&](const auto& by) {
+        const auto* other = std::get_if<std::decay_t<decltype(by)>>(&than);
+        return other && by.method == other->method && by.iterations <= other->iterations &&
+               by.substeps <= other->substeps;
+      },
+      one);
+}
+
+std::vector<AnyMethod> methods_of_springs() {
+  std::vector<AnyMethod> methods;
+  for (const std::string& name : method_names())
+    if (const AnyMethod method = *method_called(name); std::holds_alternative<cases::StepMethod>(method))
+      methods.push_back(method);
+  return methods;
 }
 
 class Search {
@@ -67,7 +85,7 @@ class Search {
   cases::Scene own_;        ///< the scene of the body's own mesh
   cases::Trajectory truth_; ///< a motion's
   std::function<double()> seconds_;
-  std::vector<DesignedBody> bodies_;
+  std::vector<SteppedBody> bodies_;
   std::vector<Candidate> candidates_;
 
   double budget() const { return sweep_.rate->budget_seconds; }
@@ -123,6 +141,13 @@ class Search {
     return scene_on(definition, cells);
   }
 
+  /// The scene without its steps.
+  static cases::Scene in_equilibrium(cases::Scene scene) {
+    scene.definition.msm.real_time.reset();
+    scene.definition.dynamics.reset();
+    return scene;
+  }
+
   void add_row(const Variant& variant, cases::Solution solution) {
     SweepRow& row = sweep_.rows.emplace_back(SweepRow{variant, {}});
     row.run.first = std::move(solution);
@@ -130,15 +155,15 @@ class Search {
   }
 
   /// The designs on a level whose springs are the best ones in equilibrium, and the case's own.
-  std::vector<DesignedBody> best_bodies(const Cells& cells) {
+  std::vector<SteppedBody> best_bodies(const Cells& cells) {
     std::vector<SweptSprings> all =
         springs_to_sweep(definition_.material, {cells}, Extent::quick, sweep_.plan.left_out);
     const cases::Design own = definition_.msm.design;
     if (cases::facts_of(own).source != cases::DesignSource::material) all.push_back({own, cells, {}});
     const cases::Scene scene = scene_on_level(cells);
-    std::vector<DesignedBody> bodies;
+    std::vector<SteppedBody> bodies;
     for (const SweptSprings& springs : all) {
-      DesignedBody body{
+      SteppedBody body{
           {Program::springs, springs.design, {}, {}, cells, 0}, with_design(scene, springs.design), {}};
       cases::Solution failed;
       try {
@@ -153,12 +178,12 @@ class Search {
       add_row(body.variant, failed);
     }
     if (definition_.dynamics) return bodies;
-    std::stable_sort(bodies.begin(), bodies.end(), [](const DesignedBody& a, const DesignedBody& b) {
+    std::stable_sort(bodies.begin(), bodies.end(), [](const SteppedBody& a, const SteppedBody& b) {
       return *a.in_equilibrium_percent < *b.in_equilibrium_percent;
     });
-    std::vector<DesignedBody> best;
+    std::vector<SteppedBody> best;
     const auto n_kept = static_cast<std::size_t>(std::ceil(kept_designs * double(bodies.size())));
-    for (DesignedBody& body : bodies)
+    for (SteppedBody& body : bodies)
       if (best.size() < n_kept || body.variant.design == own)
         best.push_back(std::move(body));
       else
@@ -169,7 +194,7 @@ class Search {
   }
 
   /// @return false, with the reason, where there is no stable one
-  bool find_equilibrium(DesignedBody& body, cases::Solution& failed) const {
+  bool find_equilibrium(SteppedBody& body, cases::Solution& failed) const {
     const Answer answer = solve_side([&] { return msm::Model(body.scene, body.springs); },
                                      [&](msm::Model& model) { return model.solve(limited(definition_)); });
     failed = answer.solution;
@@ -187,7 +212,7 @@ class Search {
   /// @return false when finer levels need not be tried
   bool add_level(const Cells& cells) {
     const std::string name = cells == Cells{} ? "the body" : cells_name(cells) + " cells";
-    const Estimate estimate = estimate_springs(size_of(scene_on_level(cells)));
+    const Estimate estimate = estimate_springs(size_of(in_equilibrium(scene_on_level(cells))));
     const double left = part_for_designs * budget() - seconds_();
     const double seconds = estimate.seconds * double(msm::methods(definition_.material).size());
     if (cells != sweep_.plan.levels.front() && !(seconds <= left)) {
@@ -196,28 +221,48 @@ class Search {
       return false;
     }
     const std::size_t n_before = candidates_.size();
-    for (DesignedBody& body : best_bodies(cells)) {
+    for (SteppedBody& body : best_bodies(cells)) {
       bodies_.push_back(std::move(body));
-      add_candidates();
+      add_candidates(methods_of_springs());
     }
+    add_elements(cells);
     if (candidates_.size() > n_before) return true;
     if (cells != sweep_.plan.levels.back())
       leave_out("finer cells", "no frame of " + name + " takes less than it may");
     return false;
   }
 
-  /// Adds the last body's candidates.
-  void add_candidates() {
-    std::vector<cases::RealTime> too_slow;
-    std::set<cases::StepMethod> refused;
-    for (const cases::RealTime& steps : steps_to_try(given_)) {
+  /// Adds the elements on a level, on which each method steps those that it takes.
+  void add_elements(const Cells& cells) {
+    const cases::Scene scene = scene_on_level(cells);
+    for (const std::string& name : method_names()) {
+      const AnyMethod method = *method_called(name);
+      if (std::holds_alternative<cases::StepMethod>(method)) continue;
+      SteppedBody body{{Program::finite_elements, {}, {}, {}, cells, 0}, scene};
+      try {
+        set_steps(body.scene, std::get<cases::ElementRealTime>(steps_in(method, {})));
+        body.variant.element = body.scene.definition.fem.element;
+        bodies_.push_back(std::move(body));
+        add_candidates({method});
+      } catch (const cases::InputError& error) {
+        leave_out(name, error.what());
+      }
+    }
+  }
+
+  /// Adds the last body's candidates by these methods.
+  void add_candidates(const std::vector<AnyMethod>& methods) {
+    std::vector<Steps> too_slow;
+    std::set<AnyMethod> refused;
+    std::vector<Steps> all;
+    for (const AnyMethod& method : methods)
+      for (const Steps& steps : steps_to_try(method, given_)) all.push_back(steps);
+    for (const Steps& steps : all) {
       Candidate one{bodies_.size() - 1, steps, 0};
       const Variant variant = variant_of(one);
-      const bool is_slower = std::any_of(too_slow.begin(), too_slow.end(), [&](const cases::RealTime& other) {
-        return other.method == steps.method && other.iterations <= steps.iterations &&
-               other.substeps <= steps.substeps;
-      });
-      if (refused.count(steps.method) > 0) continue;
+      const bool is_slower = std::any_of(too_slow.begin(), too_slow.end(),
+                                         [&](const Steps& other) { return is_less_work(other, steps); });
+      if (refused.count(method_of(steps)) > 0) continue;
       if (is_slower || !(seconds_() < part_for_designs * budget() || candidates_.empty())) {
         leave_out(full_name(variant), is_slower ? "with less work a frame is too slow already"
                                                 : "the budget of first frames was spent");
@@ -233,7 +278,7 @@ class Search {
         leave_out(full_name(variant), fmt::format("a frame takes {}, may take {}",
                                                   time_text(one.seconds_a_frame), time_text(most_seconds())));
       } catch (const cases::InputError& error) {
-        refused.insert(steps.method); // which cannot take these springs, whatever its iterations
+        refused.insert(method_of(steps)); // which cannot take the body, whatever its iterations
         add_row(variant, failed_solution(error));
       } catch (const cases::SolveError& error) {
         add_row(variant, failed_solution(error));
@@ -256,7 +301,7 @@ class Search {
 
   /// The error of a candidate after a time. What still moves is no nearer to its rest than it moves.
   void find_error(Candidate& one, double time, mechanics::StillMoving still_moving) const {
-    const DesignedBody& body = bodies_[one.body];
+    const SteppedBody& body = bodies_[one.body];
     cases::Solution& solution = one.run.first;
     one.error.reset();
     double moves_percent = 0;
@@ -285,7 +330,7 @@ class Search {
       find_error(one, is_last && !definition_.dynamics ? given_.end : time_of(round),
                  is_last ? mechanics::StillMoving::fails : mechanics::StillMoving::has_mean);
     if (solution.status != cases::Status::failed)
-      return Point{full_name(variant_of(one)), Family::springs, one.seconds_a_frame, *one.error};
+      return Point{full_name(variant_of(one)), family_of(variant_of(one)), one.seconds_a_frame, *one.error};
     solution.displacement.clear();
     add_row(variant_of(one), solution);
     return std::nullopt;
@@ -302,7 +347,7 @@ class Search {
                                  }});
     for (const auto& [c, point] : followed) {
       Candidate& one = candidates_[c];
-      const DesignedBody& body = bodies_[one.body];
+      const SteppedBody& body = bodies_[one.body];
       SweepRow row{variant_of(one), std::move(one.run), one.error, {}, body.in_equilibrium_percent};
       try {
         row.run.first_seconds = {*median(time_frames(body, one.steps, n_timed_frames))};
@@ -326,8 +371,8 @@ class Search {
     for (const Point& point : pareto_front(points_of(sweep_, Error::field, Clock::first_answer)))
       for (SweepRow& row : sweep_.rows) {
         if (row.run.first_seconds.empty() || full_name(row.variant) != point.name) continue;
-        const auto body = std::find_if(bodies_.begin(), bodies_.end(), [&](const DesignedBody& one) {
-          return one.variant.design == row.variant.design && one.variant.cells == row.variant.cells;
+        const auto body = std::find_if(bodies_.begin(), bodies_.end(), [&](const SteppedBody& one) {
+          return model_name(one.variant) == model_name(row.variant) && one.variant.cells == row.variant.cells;
         });
         while (row.run.first_seconds.size() < n_timings)
           row.run.first_seconds.push_back(
@@ -336,50 +381,6 @@ class Search {
     on_row_(sweep_);
   }
 };
-
-/// Steps of a frame, and what of the case steps in real time ignore.
-/// @return the step of a motion's reference, s: a whole part of a frame, no longer than the case's own
-double set_frames(Sweep& sweep) {
-  cases::Case& definition = sweep.definition;
-  cases::refuse_tools(definition, "sweep --at", "steps in real time know no contact");
-  cases::refuse_network(definition, "sweep --at, which designs springs for cells",
-                        "judge --method steps the springs of the network");
-  if (!definition.material_dynamics.density)
-    throw cases::InputError(definition.file +
-                            ": material.density: is not there, and steps in time need it; give "
-                            "it in kg/m^3: --set material.density=1000");
-  if (definition.fem.real_time)
-    throw cases::InputError(definition.fem.where,
-                            "real_time must be left out of a sweep, whose finite elements are the reference");
-  cases::RealTime steps = definition.msm.real_time.value_or(cases::RealTime{});
-  steps.step = 1 / sweep.rate->hertz;
-  for (const std::string& ignored : set_steps(definition, steps))
-    sweep.plan.left_out.push_back({ignored, "steps in real time do not have it"});
-  definition.expectations.clear();
-  double reference_step = 0;
-  if (auto& dynamics = definition.dynamics) {
-    const auto n_frames = 2 * static_cast<long>(dynamics->end * sweep.rate->hertz / 2 + 1e-9);
-    if (n_frames < 4)
-      throw cases::InputError(
-          dynamics->where,
-          fmt::format("end is {:g} s, must be at least four frames of {:g} s", dynamics->end, steps.step));
-    reference_step = steps.step / std::ceil(steps.step / dynamics->step * (1 - 1e-9));
-    dynamics->step = steps.step;
-    dynamics->end = static_cast<double>(n_frames) * steps.step;
-  } else if (!(steps.end >= 1)) {
-    throw cases::InputError(
-        definition.msm.where,
-        fmt::format("real_time.end is {:g} s, must be at least 1 s for a body to rest", steps.end));
-  }
-  const auto is_other = [&](const cases::Measure& measure) {
-    if (!cases::is_of_fields(measure.kind)) return false;
-    sweep.plan.left_out.push_back({"measure " + measure.name, "a sweep compares displacements"});
-    return true;
-  };
-  auto& measures = definition.measures;
-  measures.erase(std::remove_if(measures.begin(), measures.end(), is_other), measures.end());
-  return reference_step;
-}
 
 } // namespace
 

@@ -143,10 +143,14 @@ Family family_of(const Variant& variant) {
   return variant.program == Program::springs ? Family::springs : Family::finite_elements;
 }
 
+std::string model_name(const Variant& variant) {
+  return variant.program == Program::springs ? "springs " + cases::name_of(variant.design)
+                                             : cases::name_of(variant.element) + " elements";
+}
+
 std::string method_name(const Variant& variant) {
   if (variant.real_time)
-    return fmt::format("springs {}, {}", cases::name_of(variant.design),
-                       cases::name_of(variant.real_time->method));
+    return fmt::format("{}, {}", model_name(variant), name_of(method_of(*variant.real_time)));
   if (variant.program == Program::springs) return "springs " + cases::name_of(variant.design);
   const std::string name = cases::name_of(variant.formulation) + " " + cases::name_of(variant.element);
   return variant.program == Program::calculix ? "CalculiX " + name : name;
@@ -165,16 +169,9 @@ std::array<int, 3> field_cells(const Variant& variant) {
 
 std::string full_name(const Variant& variant) {
   if (const auto& steps = variant.real_time; steps || variant.tolerance == 0) {
-    std::string name = "springs " + cases::name_of(variant.design);
+    std::string name = model_name(variant);
     if (variant.cells[0] > 0) name += fmt::format(", {} cells", cells_name(variant.cells));
-    if (!steps) return name;
-    const auto add = [&](const char* what, int n) {
-      name += fmt::format(", {} {}{}", n, what, n == 1 ? "" : "s");
-    };
-    name += ", " + cases::name_of(steps->method);
-    if (steps->method != cases::StepMethod::symplectic_euler) add("iteration", steps->iterations);
-    if (steps->substeps) add("substep", *steps->substeps);
-    return name;
+    return steps ? name + ", " + text_of(*steps) : name;
   }
   if (variant.step > 0)
     return fmt::format("{}, {} cells, steps of {:g} ms", method_name(variant), cells_name(variant.cells),

@@ -182,11 +182,11 @@ void plot_at_rate(const std::string& folder, const Sweep& sweep) {
   ErrorPlot plot;
   plot.uncertainty = uncertainty_percent(*sweep.reference, Error::field);
   plot.points = points_of(sweep, Error::field, Clock::first_answer);
-  for (const std::string& method : cases::all_names<cases::StepMethod>()) {
+  for (const std::string& method : method_names()) {
     Series series{method, {2 + static_cast<int>(plot.series.size())}};
     std::vector<Point> own;
     for (const SweepRow& row : sweep.rows)
-      if (row.variant.real_time && cases::name_of(row.variant.real_time->method) == method)
+      if (row.variant.real_time && name_of(method_of(*row.variant.real_time)) == method)
         if (const auto point = point_of(sweep, row, Error::field, Clock::first_answer)) own.push_back(*point);
     for (const Point& point : pareto_front(own)) series.add(point, true);
     for (const Point& point : own) series.add(point, false);

@@ -3,6 +3,7 @@
 #include "cases/case/case.hpp"
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
+#include "compare/client/methods.hpp"
 #include "compare/gates/comparison.hpp"
 #include "compare/solve/estimate.hpp"
 
@@ -86,10 +87,13 @@ struct Variant {
   /// On |imbalance| / |applied load|; CalculiX has its own, and a sweep at a rate 0: none.
   double tolerance = 1e-9;
   double step = 0;                  ///< a motion's, s; 0: at rest
-  std::optional<cases::RealTime> real_time{}; ///< there in a sweep at a rate; then cells of 0 are a mesh's own
+  std::optional<Steps> real_time{}; ///< there in a sweep at a rate; then cells of 0 are a mesh's own
 };
 
 Family family_of(const Variant& variant);
+
+/// What a method of real time steps: "springs hybrid", "q1_bbar elements".
+std::string model_name(const Variant& variant);
 
 /// The model without its resolution: "springs hybrid", "log_strain q2", "CalculiX small_strain q1".
 std::string method_name(const Variant& variant);
@@ -102,7 +106,8 @@ std::string cells_name(const std::array<int, 3>& cells);
 std::array<int, 3> field_cells(const Variant& variant);
 
 /// Method, cells and tolerance: "springs hybrid 8x2x2 to 1e-09"; of a motion "springs hybrid, 8x2x2 cells,
-/// steps of 2 ms"; at a rate "springs hybrid, 8x2x2 cells, xpbd, 1 iteration, 50 substeps".
+/// steps of 2 ms"; at a rate "springs hybrid, 8x2x2 cells, xpbd, 1 iteration, 50 substeps" or "q1_bbar
+/// elements, 8x2x2 cells, fem.corotational, 10 iterations".
 std::string full_name(const Variant& variant);
 
 /// The case as a variant has it, without measures: their nodes need not exist on every mesh.

@@ -72,11 +72,13 @@ Json rate_row_to_json(const Sweep& sweep, const SweepRow& row) {
   Json errors{{"field", row.field_error_percent}};
   for (std::size_t m = 0; m < row.measure_error_percent.size(); ++m)
     errors[sweep.definition.measures[m].name] = row.measure_error_percent[m];
-  Json json{{"design", cases::name_of(variant.design)},
+  const bool are_springs = variant.program == Program::springs;
+  Json json{{"design", are_springs ? Json(cases::name_of(variant.design)) : Json(nullptr)},
+            {"element", are_springs ? Json(nullptr) : Json(cases::name_of(variant.element))},
             {"cells", variant.cells[0] > 0 ? Json(variant.cells) : Json(nullptr)},
-            {"method", steps ? Json(cases::name_of(steps->method)) : Json(nullptr)},
+            {"method", steps ? Json(name_of(method_of(*steps))) : Json(nullptr)},
             {"iterations", nullptr},
-            {"substeps", steps ? Json(steps->substeps) : Json(nullptr)},
+            {"substeps", nullptr},
             {"status", cases::name_of(row.run.first.status)},
             {"message", row.run.first.message},
             {"milliseconds_a_frame", nullptr},
@@ -84,7 +86,10 @@ Json rate_row_to_json(const Sweep& sweep, const SweepRow& row) {
             {"keeps_up", nullptr},
             {"error_percent", errors},
             {"in_equilibrium_percent", row.in_equilibrium_percent}};
-  if (steps && steps->method != cases::StepMethod::symplectic_euler) json["iterations"] = steps->iterations;
+  if (steps) {
+    const Json settings = settings_of(*steps, sweep.definition);
+    for (const char* key : {"iterations", "substeps"}) json[key] = settings.value(key, Json(nullptr));
+  }
   if (seconds) {
     json["milliseconds_a_frame"] = 1e3 * *seconds;
     json["keeps_up"] = *seconds <= 1 / sweep.rate->hertz;
@@ -94,13 +99,14 @@ Json rate_row_to_json(const Sweep& sweep, const SweepRow& row) {
 
 Json row_of_text(const Sweep& sweep, const SweepRow& row) {
   Json json = rate_row_to_json(sweep, row);
+  json["model"] = model_name(row.variant);
   if (row.variant.cells[0] > 0) json["cells"] = cells_name(row.variant.cells);
   return json;
 }
 
 Columns rate_columns(const cases::Case& definition) {
   Columns columns =
-      columns_of("case design cells_x=cells.0 cells_y=cells.1 cells_z=cells.2 method iterations "
+      columns_of("case design element cells_x=cells.0 cells_y=cells.1 cells_z=cells.2 method iterations "
                  "substeps status message milliseconds_a_frame keeps_up "
                  "field_error_percent=error_percent.field in_equilibrium_percent");
   for (const cases::Measure& measure : definition.measures)
@@ -110,7 +116,7 @@ Columns rate_columns(const cases::Case& definition) {
 
 Columns rate_columns_of_text(const cases::Case& definition) {
   Columns columns =
-      columns_of("design cells{:<} method{:<} it.=iterations substeps "
+      columns_of("model cells{:<} method{:<} it.=iterations substeps "
                  "ms~a~frame=milliseconds_a_frame{:.3g} n=timings keeps~up=keeps_up "
                  "field~%=error_percent.field{:.3g} in~equilibrium~%=in_equilibrium_percent{:.3g}");
   for (const cases::Measure& measure : definition.measures)
@@ -121,13 +127,13 @@ Columns rate_columns_of_text(const cases::Case& definition) {
 void write_rate_screen(std::ostream& out, const Sweep& sweep) {
   if (!sweep.reference) return write_paragraph(out, rate_sentence(sweep), "", "  ");
   const ReferenceValue& reference = sweep.reference->field;
-  write_paragraph(out,
-                  "reference: " + (reference.note.empty() ? "the finite elements' limit" : reference.note) +
-                      (reference.uncertainty_percent > 0
-                           ? fmt::format("; known to {:.2g} % (displacement field)",
-                                         reference.uncertainty_percent)
-                           : ""),
-                  "", "  ");
+  write_paragraph(
+      out,
+      "reference: " + (reference.note.empty() ? "the finite elements' limit" : reference.note) +
+          (reference.uncertainty_percent > 0
+               ? fmt::format("; known to {:.2g} % (displacement field)", reference.uncertainty_percent)
+               : ""),
+      "", "  ");
   out << '\n';
   write_paragraph(out, rate_sentence(sweep), "", "  ");
   const std::vector<Point> front = pareto_front(points_at(sweep));
@@ -141,7 +147,7 @@ void write_rate_screen(std::ostream& out, const Sweep& sweep) {
   write_table(
       out,
       columns_of("ms~a~frame=milliseconds_a_frame{:.3g} keeps~up=keeps_up error~%=error_percent.field{:.3g} "
-                 "springs=design{:<} cells{:<} method{:<} it.=iterations substeps"),
+                 "model{:<} cells{:<} method{:<} it.=iterations substeps"),
       rows);
   write_paragraph(out,
                   fmt::format("a frame's time is the median of {}; here, the median of {} such medians",

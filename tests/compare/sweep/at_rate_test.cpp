@@ -30,9 +30,10 @@ SweepRow row(int substeps, double seconds, std::optional<double> error,
   SweepRow row;
   row.variant.design = cases::Design::hybrid;
   row.variant.cells = {2, 2, 4};
-  row.variant.real_time.emplace();
-  row.variant.real_time->iterations = 1;
-  row.variant.real_time->substeps = substeps;
+  cases::RealTime steps;
+  steps.iterations = 1;
+  steps.substeps = substeps;
+  row.variant.real_time = steps;
   row.run.first.status = error ? cases::Status::converged : cases::Status::failed;
   row.run.first.message = error ? "" : "does not come to rest";
   if (error) row.run.first_seconds = {seconds};
@@ -157,8 +158,9 @@ TEST_CASE("the sentence at a rate has the figures of its rows") {
   std::ostringstream screen;
   compare::write_sweep_screen(screen, sweep, "");
   CHECK_THAT(screen.str(),
-             Contains("           9       yes        8  hybrid   2x2x4  xpbd      1        10\n") &&
-                 Contains("          25        no        3  hybrid") && Contains("does not come to rest"));
+             Contains("           9       yes        8  springs hybrid  2x2x4  xpbd      1        10\n") &&
+                 Contains("          25        no        3  springs hybrid") &&
+                 Contains("does not come to rest"));
 }
 
 TEST_CASE("where nothing keeps a rate, or nothing answers, the sentence says so") {
