@@ -36,8 +36,8 @@ endfunction()
 
 # springproof_tests(FOLDER SOURCES file... LIBRARIES target...) builds springproof_<FOLDER>_tests from the files of tests/ and
 # registers one test a file and kind. A test case has at most one of the Catch2 tags [verification], [regression] and [peer], which is its
-# kind; any other is a unit test. A test case that takes more than some seconds has the tag [long] too: it is a test of its own, of the long
-# tier. Tests find the project's files through the macro SPRINGPROOF_SOURCE_DIR (a string).
+# kind; any other is a unit test. A test case that takes more than some seconds has the tag [long] too, one that takes minutes [release]: it is
+# a test of its own, of that tier. Tests find the project's files through the macro SPRINGPROOF_SOURCE_DIR (a string).
 function(springproof_tests folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   set(target springproof_${folder}_tests)
@@ -58,18 +58,21 @@ function(springproof_tests folder)
     foreach(kind IN LISTS found)
       if(kind STREQUAL unit)
         set(name ${place}/${file})
-        set(spec "[#${file}]~[.]~[long]~[${not_these}]")
+        set(spec "[#${file}]~[.]~[long]~[release]~[${not_these}]")
       else()
         set(name ${place}/${file}/${kind})
-        set(spec "[#${file}][${kind}]~[.]~[long]")
+        set(spec "[#${file}][${kind}]~[.]~[long]~[release]")
       endif()
       springproof_test(default ${name} KIND ${kind} COMMAND $<TARGET_FILE:${target}> -w NoTests "-#" ${spec})
     endforeach()
   endforeach()
-  if(NOT SPRINGPROOF_SANITIZE)
-    catch_discover_tests(${target} TEST_SPEC "[long]" TEST_PREFIX "${folder}/" EXTRA_ARGS -w NoTests WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
-      PROPERTIES LABELS long TIMEOUT ${limit_long} SKIP_REGULAR_EXPRESSION "nothing was compared" ENVIRONMENT ${alone})
-  endif()
+  foreach(tier long release)
+    if(NOT SPRINGPROOF_SANITIZE)
+      catch_discover_tests(${target} TEST_SPEC "[${tier}]" TEST_PREFIX "${folder}/" TEST_LIST ${target}_${tier} EXTRA_ARGS -w NoTests
+        WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
+        PROPERTIES LABELS ${tier} TIMEOUT ${limit_${tier}} SKIP_REGULAR_EXPRESSION "nothing was compared" ENVIRONMENT ${alone})
+    endif()
+  endforeach()
 endfunction()
 
 # Kinds of a source's test cases that are not [long]. Test cases are found in the text, and again whenever the source changes.
@@ -80,7 +83,7 @@ function(springproof_kinds_of source result)
   string(REGEX MATCHALL "TEST_CASE(_METHOD)?\\([^{]*" cases "${text}")
   set(found)
   foreach(case IN LISTS cases)
-    if(case MATCHES "\\|long\\|" OR case MATCHES "\\|\\.\\|")
+    if(case MATCHES "\\|(long|release)\\|" OR case MATCHES "\\|\\.\\|")
       continue()
     endif()
     if(case MATCHES "\\|(verification|regression|peer)\\|")

@@ -1,8 +1,8 @@
 """Runs a test and notes the processor time that it and its processes took.
 
 processor_time.py FOLDER NAME COMMAND...    runs COMMAND and writes its seconds to FOLDER, one file a test
-processor_time.py FOLDER                    is the check of the long tier: it fails when a test of the default tier took more than 5 s
-                                            of processor time twice, the second time alone; it prints the tier's sum
+processor_time.py FOLDER                    is the check of the long tier: it fails when a test of the default tier took more than 20 s
+                                            of processor time twice, the second time alone, and names those of more than 5 s
 
 The check is run in the build folder. It reads what the last `./do test` left, and fails when that is nothing.
 """
@@ -14,7 +14,8 @@ import resource
 import subprocess
 import sys
 
-LIMIT = 5.0
+AIM = 5.0
+LIMIT = 4 * AIM  # a slow machine takes twice as long as a fast one
 
 
 def file_of(folder, name):
@@ -47,7 +48,10 @@ def check(folder):
         return 1
     print(f"{len(names)} default tests took {sum(records.values()):.0f} s of processor time")
     failures = 0
-    for name in (name for name in names if records[name] > LIMIT):
+    for name in sorted((name for name in names if records[name] > AIM), key=records.get, reverse=True):
+        if records[name] <= LIMIT:
+            print(f"{name}: {records[name]:.1f} s, more than {AIM:.0f}")
+            continue
         subprocess.run(["ctest", "-R", f"^{re.escape(name)}$"], stdout=subprocess.DEVNULL, check=False)
         again = json.loads(file_of(folder, name).read_text())["seconds"]
         print(f"{name}: {records[name]:.1f} s, and {again:.1f} s alone")

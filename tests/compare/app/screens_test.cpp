@@ -33,14 +33,6 @@ TEST_CASE("the tables' audit leaves the text for files of --out, which the text 
   CHECK(text.rfind(content(out + "/tables.txt"), 0) == 0);
 }
 
-TEST_CASE("all tables with the advice stand on 120 lines of 100 characters", "[long]") {
-  const std::string text = printed_by("tables");
-  CHECK(lines_of_text(text).size() <= 120);
-  CHECK(width_of_text(text) <= screen);
-  CHECK_THAT(text, Contains("published values: ") && Contains("Which design to use"));
-  CHECK_THAT(text, Contains("springproof tables --trace"));
-}
-
 TEST_CASE("a comparison of designs ends with the one to use", "[long]") {
   const std::string words = "design --young 0.3 --poisson 0.35 --compare --measure";
   const std::string text = printed_by(words);

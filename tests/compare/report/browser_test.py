@@ -1,4 +1,4 @@
-"""The report in a real browser: no console errors, every table is there, every body draws both models, turns and scales.
+"""All tables on a screen, and the report in a real browser: no console errors, every table is there, every body draws both models, turns and scales.
 
 usage: browser_test.py SPRINGPROOF FOLDER
 
@@ -98,6 +98,14 @@ def check_views(found):
     assert found["outline_when_held"] == "none", found["outline_when_held"]
 
 
+def check_screen(text):
+    """All tables with the advice stand on 120 lines of 100 characters."""
+    lines = text.splitlines()
+    assert len(lines) <= 120, len(lines)
+    assert max(map(len, lines)) <= 100, max(lines, key=len)
+    assert "published values: " in text and "Which design to use" in text, text
+
+
 def near(a, b, relative):
     return abs(a - b) <= relative * abs(b)
 
@@ -141,10 +149,11 @@ def check_chart(found, advice):
 
 def main():
     springproof, folder = sys.argv[1], Path(sys.argv[2]).resolve()
-    if not find_chromium():
-        print("no Chromium here: nothing was compared")
-        return
     subprocess.run([springproof, "tables", "--out", folder], check=True, stdout=subprocess.DEVNULL)
+    check_screen((folder / "tables.txt").read_text())
+    if not find_chromium():
+        print("no Chromium here: of the page nothing was compared")
+        return
     report = folder / "report.html"
     text = report.read_text()
     assert report.stat().st_size < LARGEST, report.stat().st_size

@@ -48,7 +48,7 @@ Solved solved(const cases::Case& definition) {
           std::get<cases::Box>(definition.body).size, answer.solution.displacement.back()};
 }
 
-const std::vector<Vector3d> cells{{1, 1, 1.5}, {1, 1, 0.65}, {1, 1.2, 1.5}, {1, 1, 2}, {10, 10, 5}};
+const std::vector<Vector3d> shapes_of_cells{{1, 1, 1.5}, {1, 1, 0.65}, {1, 1.2, 1.5}, {1, 1, 2}, {10, 10, 5}};
 const double round_off = 1e-5; // Newton's tolerance of such small strains, and finite rotations
 
 } // namespace
@@ -57,7 +57,7 @@ TEST_CASE("bodies of boxes in uniaxial tension have the E and nu of their lattic
           "where it "
           "has them",
           "[verification]") {
-  for (const Vector3d& cell : cells)
+  for (const Vector3d& cell : shapes_of_cells)
     for (const cases::Design design : {cases::Design::hybrid, cases::Design::matched}) {
       CAPTURE(cell.transpose(), cases::name_of(design));
       cases::Case definition = body(cell, design);
@@ -81,7 +81,7 @@ TEST_CASE("bodies of boxes in uniaxial tension have the E and nu of their lattic
 TEST_CASE("an affine shear of boxes leaves the nodes inside in equilibrium, and takes the G of the lattice",
           "[verification]") {
   const double shear_modulus = modulus / (2 * (1 + ratio));
-  for (const Vector3d& cell : cells)
+  for (const Vector3d& cell : shapes_of_cells)
     for (const cases::Design design : {cases::Design::moduli, cases::Design::hybrid, cases::Design::matched})
       for (const auto& [along, across] : {std::pair(0, 2), {1, 2}, {0, 1}}) {
         CAPTURE(cell.transpose(), cases::name_of(design), along, across);
