@@ -41,12 +41,13 @@ build)
   cmake --build "$build" --target springproof springproof_cases_tests springproof_msm_tests springproof_fem_reference_tests \
     springproof_clients_tests >&2 ;;
 springs)
-  ./springproof_cases_tests "~[verification]~[little_memory]"
-  ./springproof_msm_tests "~[verification]~[little_memory]"
+  ./springproof_cases_tests "~[verification]~[release]~[little_memory]"
+  ./springproof_msm_tests "~[verification]~[release]~[little_memory]"
   ./springproof_msm_tests "-#" "[#model_test][verification]" ;;
 finite_elements)
   ./springproof_fem_reference_tests "-#" \
-    "~[ranks]~[little_memory]~[#cook_test]~[#manufactured_test]" ;;
+    "~[ranks]~[little_memory]~[long]~[release]~[#cook_test]~[#manufactured_test]"
+  ./springproof_fem_reference_tests "both backends find the same equilibrium under tension and shear*" ;;
 clients)
   ./springproof_clients_tests "a thousand mutated answers*" ;;
 program)
