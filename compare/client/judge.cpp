@@ -326,6 +326,18 @@ Json judged_to_json(const std::vector<JudgedCase>& cases, const ClientBudget& bu
           {"cases", list}};
 }
 
+namespace {
+
+/// The status in place of what it leaves empty.
+Json row_of_text(const JudgedRow& row) {
+  Json json = row_to_json(row);
+  if (!row.failure.empty()) json["error_percent"] = row.status();
+  if (row.failure.empty() && !row.is_at_rest) json["rests_after"] = row.status();
+  return json;
+}
+
+} // namespace
+
 void write_judged_text(std::ostream& out, const JudgedCase& judged) {
   write_wrapped(out,
                 fmt::format("{}: worst errors of the measures from the finite elements{}", judged.name,
@@ -333,14 +345,14 @@ void write_judged_text(std::ostream& out, const JudgedCase& judged) {
                 2);
   const bool has_surface = std::any_of(judged.rows.begin(), judged.rows.end(),
                                        [](const JudgedRow& row) { return row.surface.has_value(); });
-  const std::string error = "model status error~%=error_percent{:.2f} +-=error_uncertainty{:.2f} at{:<} ",
+  const std::string error = "model error~%=error_percent{:.2f} +-=error_uncertainty{:.2f} at{:<} ",
                     of_motion = "surface~%=surface.error_percent{:.2f} left~%=residual_percent{:.2g} ",
                     others = "volume~%=volume_percent{:.2f} rests~s=rests_after{:.2f} ignores=ignored ",
                     pace = "ms~a~step=milliseconds_a_step{:.2f} real~time=in_real_time";
   write_table(out,
               columns_of(error + (has_surface ? of_motion : others) + pace +
                          (has_surface ? " 60~Hz=keeps_60_hz" : "")),
-              json_list(judged.rows, row_to_json));
+              json_list(judged.rows, row_of_text));
   for (const JudgedRow& row : judged.rows)
     for (const std::string& note : notes_of(row)) write_wrapped(out, "    " + note, 6);
 }
