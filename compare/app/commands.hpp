@@ -18,6 +18,7 @@ using Action = std::function<int()>;
 
 void add_describe_command(CLI::App& program, Action& chosen); ///< hidden: for the build
 void add_design_command(CLI::App& program, Action& chosen);
+void add_dossier_command(CLI::App& program, Action& chosen);
 void add_eigen_command(CLI::App& program, Action& chosen);
 void add_export_command(CLI::App& program, Action& chosen);
 void add_fit_command(CLI::App& program, Action& chosen);

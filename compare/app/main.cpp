@@ -114,12 +114,13 @@ int main(int argc, char** argv) {
   program.set_version_flag("--version", compare::program_version() + " (" + compare::program_commit() + ")");
   program.require_subcommand(1);
   compare::Action chosen;
-  for (const auto add : {compare::add_run_command, compare::add_gate_command, compare::add_interact_command,
-                         compare::add_new_command, compare::add_design_command, compare::add_fit_command,
-                         compare::add_eigen_command, compare::add_stress_command, compare::add_sweep_command,
-                         compare::add_tables_command, compare::add_merge_command, compare::add_export_command,
-                         compare::add_judge_command, compare::add_league_command,
-                         compare::add_describe_command, compare::add_worker_command})
+  for (const auto add :
+       {compare::add_run_command, compare::add_gate_command, compare::add_interact_command,
+        compare::add_new_command, compare::add_design_command, compare::add_fit_command,
+        compare::add_eigen_command, compare::add_stress_command, compare::add_sweep_command,
+        compare::add_tables_command, compare::add_merge_command, compare::add_export_command,
+        compare::add_judge_command, compare::add_league_command, compare::add_dossier_command,
+        compare::add_describe_command, compare::add_worker_command})
     add(program, chosen);
   for (CLI::App* command : program.get_subcommands(nullptr))
     if (CLI::Option* out = command->get_option_no_throw("--out"))

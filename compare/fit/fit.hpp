@@ -97,6 +97,11 @@ struct FitCases {
 /// @param name  the file's, for messages   @throws InputError with the line
 FitData read_fit_data(const std::string& text, const std::string& name, const FitCases& cases);
 
+/// A state's scene, with the markers among the measures.
+/// @param values  KEY=VALUE of the case, after all other settings
+cases::Scene scene_of(const FitCases& all, const FitState& state,
+                      const std::vector<std::string>& values = {});
+
 /// The limits of the finite elements' displacement under refinement, as data for springs.
 /// @param answer  solves questions    @throws InputError for a case whose limit is not found
 FitData limits_as_data(const FitCases& cases, const AnswerQuestions& answer);

@@ -13,11 +13,6 @@
 
 namespace springproof::compare {
 
-namespace {
-
-using Eigen::Index;
-using Eigen::VectorXd;
-
 cases::Scene scene_of(const FitCases& all, const FitState& state, const std::vector<std::string>& values) {
   std::vector<std::string> settings = all.settings;
   settings.insert(settings.end(), state.settings.begin(), state.settings.end());
@@ -26,6 +21,11 @@ cases::Scene scene_of(const FitCases& all, const FitState& state, const std::vec
   definition.measures.insert(definition.measures.end(), state.markers.begin(), state.markers.end());
   return make_scene_within_memory(definition);
 }
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
 
 /// Ends that numbers of these names have in case files.
 FreeParameter parameter_of(const std::string& key, double start) {

@@ -1,7 +1,6 @@
 #include "compare/peers/peer_study.hpp"
 
 #include "cases/case/names.hpp"
-#include "compare/peers/getfem.hpp"
 #include "compare/solve/solve.hpp"
 #include "compare/table/table.hpp"
 
@@ -62,13 +61,13 @@ std::optional<bool> PeerLimit::is_within_bars() const {
   return std::abs(peer->value - ours->value) <= ours->uncertainty + peer->uncertainty;
 }
 
-PeerStudy study_by_getfem(const Comparison& comparison) {
+PeerStudy study_by_getfem(const Comparison& comparison, int most_meshes) {
   PeerStudy study;
   study.program = "GetFEM";
   const cases::Scene scene = scene_for_peer(comparison);
   Stopwatch stopwatch;
   try {
-    const RefinedMeshes meshes = solve_with_getfem(scene);
+    const RefinedMeshes meshes = solve_with_getfem(scene, most_meshes);
     study.message = meshes.reason;
     if (meshes.solutions.empty()) return study; // skipped
     study.status = cases::Status::converged;

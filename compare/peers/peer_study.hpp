@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compare/gates/comparison.hpp"
+#include "compare/peers/getfem.hpp"
 #include "compare/table/json.hpp"
 
 #include <ostream>
@@ -30,7 +31,7 @@ struct PeerStudy {
 };
 
 /// Asks GetFEM about a case that this program has solved. A solve that fails is a failed study.
-PeerStudy study_by_getfem(const Comparison& comparison);
+PeerStudy study_by_getfem(const Comparison& comparison, int most_meshes = most_getfem_meshes);
 
 void write_peer_study_text(std::ostream& out, const PeerStudy& study);
 

@@ -11,7 +11,9 @@ function about() {
     report.licences.map((text) => make("pre", null, text)))];
 }
 
-const page_sections = [["league", "League", league], ["verdict", "Verdict", verdict], ["skin", "Skin", skin], ["landmarks", "Landmarks", landmarks],
+const page_sections = [["context", "Context", dossier_context], ["code", "Code verification", dossier_code],
+  ["calculation", "Calculation verification", dossier_calculation], ["validation", "Validation", dossier_validation],
+  ["applicability", "Applicability", dossier_applicability], ["missing", "Missing", dossier_missing], ["league", "League", league], ["verdict", "Verdict", verdict], ["skin", "Skin", skin], ["landmarks", "Landmarks", landmarks],
   ["measures", "Measures", measures], ["causes", "Causes", causes], ["motion", "Motion", motion], ["springs", "Springs", case_springs],
   ["choose", "Which springs", choose], ["designs", "Designs", designs], ["bodies", "Bodies", bodies],
   ["ranking", "Designs compared", ranked], ["tables", "Tables", tables],

@@ -126,4 +126,19 @@ void write_case_page(const std::string& folder, const Comparison& comparison, co
              case_page_to_json(comparison, ranking, commands, budgets));
 }
 
+void write_dossier_page(const std::string& folder, const Json& document,
+                        const std::vector<std::string>& commands) {
+  std::string names;
+  for (const Json& one : document["context"]["cases"])
+    names += (names.empty() ? "" : ", ") + one["case"].get<std::string>();
+  const Json& question = document["context"]["question"];
+  write_page(folder + "/dossier.html", "Dossier: " + names,
+             {{"heading", "Dossier: " + names},
+              {"subheading",
+               question.is_null() ? Json("The question that it is to answer was not said.") : question},
+              {"dossier", document},
+              {"times", Json::array()},
+              {"commands", commands}});
+}
+
 } // namespace springproof::compare

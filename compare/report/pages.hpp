@@ -95,4 +95,10 @@ void write_report(const std::string& folder, const ThesisResults& results,
 /// "computed_by", each reference's figure with its command, and an advice "seconds" of both models.
 nlohmann::ordered_json report_to_json(const ThesisResults& results, const std::vector<Figure>& figures);
 
+/// FOLDER/dossier.html.
+/// @param document  of dossier_to_json()   @param commands  those that make the page, as typed
+/// @throws InputError if something cannot be read or written
+void write_dossier_page(const std::string& folder, const nlohmann::ordered_json& document,
+                        const std::vector<std::string>& commands);
+
 } // namespace springproof::compare
