@@ -88,7 +88,9 @@ Json applicability_to_json(const StudiedCase& studied, const Dossier& dossier, M
   }
   std::vector<std::string> outside;
   if (!ratios.is_empty() && !(verified.holds(*ratios.lowest()) && verified.holds(*ratios.highest())))
-    outside.push_back(fmt::format("Poisson's ratio {:g} to {:g}", *ratios.lowest(), *ratios.highest()));
+    outside.push_back(*ratios.lowest() == *ratios.highest()
+                          ? fmt::format("Poisson's ratio {:g}", *ratios.lowest())
+                          : fmt::format("Poisson's ratio {:g} to {:g}", *ratios.lowest(), *ratios.highest()));
   Json sides{{"fem", side_to_json(scene, answers.fem, fem)}, {"msm", side_to_json(scene, answers.msm, msm)}};
   const Json& gradient = sides["fem"]["largest_gradient"];
   if (!gradient.is_null() && !verified_strains.is_empty() &&

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 
 namespace springproof::compare {
 
@@ -198,6 +199,7 @@ Json calculation_of_case(const StudiedCase& studied, const GateList& gates, Miss
   const Comparison& comparison = studied.comparison;
   const std::string& name = comparison.scene.definition.name;
   Json peers = Json::array(), measures = Json::array(), meshes = Json::array();
+  std::map<std::string, std::vector<std::string>> without_limit; // measures by the reason
   for (const MeasuredValue& m : comparison.measures) {
     Json row{{"measure", m.name}, {"unit", m.unit}, {"fem", m.fem}, {"msm", m.msm}};
     row["fem_limit"] = m.fem_limit ? Json(m.fem_limit->value) : Json();
@@ -211,10 +213,7 @@ Json calculation_of_case(const StudiedCase& studied, const GateList& gates, Miss
     row["gates"] = numbers_of(comparison, gates, m);
     row["parts"] = {{"fem", part_of(studied.budgets.fem, m.name)},
                     {"msm", part_of(studied.budgets.springs, m.name)}};
-    if (!m.fem_limit)
-      missing.add("calculation_verification", name,
-                  fmt::format("the limit of {} and its error bar: {}", m.name, reason),
-                  mesh_study ? "loads and supports on areas, or more meshes (--converge=4)" : "--converge");
+    if (!m.fem_limit) without_limit[reason].push_back(m.name);
     for (const auto& [model, budgets] :
          {std::pair("springs", &studied.budgets.springs), {"finite elements", &studied.budgets.fem}})
       for (const ErrorBudget& budget : *budgets)
@@ -225,6 +224,11 @@ Json calculation_of_case(const StudiedCase& studied, const GateList& gates, Miss
                       "a measure and springs that finer lattices have");
     measures.push_back(std::move(row));
   }
+  for (const auto& [reason, names] : without_limit)
+    missing.add("calculation_verification", name,
+                fmt::format("the limit of {} and its error bar: {}", fmt::join(names, ", "), reason),
+                comparison.mesh_study ? "loads and supports on areas, or more meshes (--converge=4)"
+                                      : "--converge");
   if (const auto& study = comparison.mesh_study)
     for (std::size_t i = 0; i < study->refine.size() && i < study->unknowns.size(); ++i)
       meshes.push_back({{"refine", study->refine[i]}, {"unknowns", study->unknowns[i]}});
@@ -282,11 +286,17 @@ void tell_missing_of(const ValidatedDatum& row, MissingList& missing) {
     if (!side->value)
       missing.add("validation", row.case_name, fmt::format("the {}' {}: {}", model, of, side->reason),
                   "a case that is solved");
-    else if (!side->numerical.size)
-      missing.add(
-          "validation", row.case_name,
-          fmt::format("the numerical uncertainty of the {}' {}: {}", model, of, side->numerical.reason),
-          "a limit: --converge, and loads on areas");
+  const auto tell = [&](const std::string& model, const ModelAgainstDatum& side) {
+    if (side.value && !side.numerical.size)
+      missing.add("validation", row.case_name,
+                  fmt::format("the numerical uncertainty of {}, {}: {}", of, model, side.numerical.reason),
+                  "a limit: --converge, and loads on areas");
+  };
+  if (row.fem.value && row.msm.value && !row.fem.numerical.size && !row.msm.numerical.size &&
+      row.fem.numerical.reason == row.msm.numerical.reason)
+    return tell("both models", row.fem);
+  tell("finite elements", row.fem);
+  tell("springs", row.msm);
 }
 
 Json validation_to_json(const Dossier& dossier, const GateList& gates, MissingList& missing) {

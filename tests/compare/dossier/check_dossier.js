@@ -7,7 +7,8 @@
     sections: [...document.querySelectorAll("main > section")].map((section) => section.id),
     images: document.querySelectorAll("main img").length,
     no_gate: [...document.querySelectorAll("td .quiet")].filter((span) => span.textContent === "no gate").length,
-    dead_links: [...document.querySelectorAll("main a[href^='#']")].map((link) => link.getAttribute("href").slice(1)).filter((id) => !document.getElementById(id)) };
+    dead_links: [...document.querySelectorAll("main a[href^='#']")].map((link) => link.getAttribute("href").slice(1))
+      .filter((id) => !document.getElementById(id)) };
   const result = document.createElement("script");
   result.type = "application/json";
   result.id = "found";

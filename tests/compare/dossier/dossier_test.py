@@ -113,6 +113,23 @@ def check_validation(document):
     assert [one for one in document["missing"] if one["section"] == "validation"] == [], document["missing"]
 
 
+def keys_of(value):
+    if isinstance(value, list):
+        return set().union(*map(keys_of, value)) if value else set()
+    if not isinstance(value, dict):
+        return set()
+    return set(value) | set().union(*(keys_of(inner) for key, inner in value.items() if key != "areas_mm2"))  # whose keys are loads
+
+
+def check_documented(document):
+    """Every key stands in json.md, in the section of dossier, of run or of all documents."""
+    text = (Path(__file__).resolve().parents[3] / "docs" / "reference" / "json.md").read_text()
+    parts = re.split(r"^## (.*)$", text, flags=re.MULTILINE)
+    sections = {heading.strip("`"): body for heading, body in zip(parts[1::2], parts[2::2])}
+    named = set(re.findall(r"`([^`]+)`", "".join(sections[one] for one in ("dossier", "run", "design", "What all documents share"))))
+    assert keys_of(document) <= named, sorted(keys_of(document) - named)
+
+
 def check_page(page, document):
     copy, found = examine(page, "examined.html", Path(__file__).parent / "check_dossier.js", options=("--window-size=1400,1000",))
     copy.unlink()
@@ -138,6 +155,7 @@ def main():
     assert document == json.loads((out / "dossier.json").read_text())
     assert [key for key in SECTIONS if key not in document] == []
     assert "no claim of compliance" in document["method"]
+    check_documented(document)
     check_gates(document)
     check_orders(document)
     check_validation(document)
@@ -154,7 +172,7 @@ def main():
     assert side["uncertainty"] is None and not side["is_complete"] and side["numerical"] is None, side
     told = " ".join(one["what"] for one in document["missing"])
     for what in ("the uncertainty of the measurement of stretch (line 2)", "what the uncertainty of the inputs", "the limit of stretch",
-                 "the numerical uncertainty of the springs' stretch (line 2)", "who measured what"):
+                 "the numerical uncertainty of stretch (line 2), both models", "who measured what"):
         assert what in told, (what, told)
 
     # A missed gate of the case fails the command, and says which.
