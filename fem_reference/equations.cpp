@@ -204,7 +204,7 @@ void EquilibriumEquations::evaluate(const State& state, double load_factor, Want
   const auto internal =
       assembly_.assemble(state, prescribed_gap_, wanted, force_.get(), right_hand_side_.get());
   if (step_) add_inertia(state, wanted);
-  if (contact_) add_contact(state, load_factor, wanted);
+  if (contact_) add_contact(state, step_ ? step_->time : load_factor, wanted);
   measure(internal, load_factor);
   if (wanted == Wanted::stress) return;
   // minus the condensed imbalance, and the prescribed gap on constrained degrees of freedom
@@ -383,7 +383,9 @@ void EquilibriumEquations::measure(const std::optional<InternalImbalance>& inter
   imbalance = std::sqrt(total(imbalance, MPI_SUM, communicator_));
   largest_gap_ = total(largest_gap_, MPI_MAX, communicator_);
   reaction = std::hypot(std::sqrt(total(reaction, MPI_SUM, communicator_)), contact_force_);
-  size_.relative = imbalance == 0 ? 0 : imbalance / scale(d.constraints.are_moved, reaction);
+  double relative_to = scale(d.constraints.are_moved, reaction);
+  if (step_) relative_to = std::max({relative_to, largest_contact_force_, contact_force_});
+  size_.relative = imbalance == 0 ? 0 : imbalance / relative_to;
   mismatch = total(mismatch, MPI_MAX, communicator_);
   size_.constraints_hold = mismatch <= volume_tolerance && largest_gap_ <= 1e-12;
   if (total(internal ? 1 : 0, MPI_MIN, communicator_) == 0 || !std::isfinite(imbalance))

@@ -130,7 +130,10 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   }
   void end_step(const State& at, double length) override {
     if (assembly_.memory()) assembly_.memory()->end_step(assembly_.elastic_stresses(at), length);
+    largest_contact_force_ = std::max(largest_contact_force_, contact_force_);
   }
+
+  std::vector<cases::ToolContact> tools_at(double time, const State& at) const override;
 
   /// See Assembly.
   template<class Action>
@@ -170,6 +173,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   std::optional<Motion> motion_;              ///< present for a body in motion
   std::optional<mechanics::Contact> contact_; ///< with the scene's tools
   double contact_force_ = 0;                  ///< norm of its forces in the last evaluation, N
+  double largest_contact_force_ = 0;          ///< at the end of a step
   long n_evaluations_ = 0, n_tangents_ = 0;
   bool has_tangent_ = false; ///< it was assembled at a valid state
   // results for the state last evaluated

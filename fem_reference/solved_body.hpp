@@ -61,6 +61,7 @@ struct SolvedBody {
     last = start_of_motion(settings.newton);
     cases::Solution solution =
         mechanics::follow_motion(body.scene, body.equations, body.on_mesh(), last, settings);
+    solution.tools = body.tools(last, body.scene.definition.dynamics->end);
     add_norms(solution);
     return solution;
   }

@@ -106,6 +106,11 @@ void EquilibriumEquations::add_contact(const State& state, double load_factor, W
   check(MatAssemblyEnd(assembly_.tangent(), MAT_FINAL_ASSEMBLY));
 }
 
+std::vector<cases::ToolContact> EquilibriumEquations::tools_at(double time, const State& at) const {
+  if (!contact_) return {};
+  return contact_->found([&](int node) -> Vector3d { return at.segment<3>(3 * node); }, time);
+}
+
 /// A force on a node between the vertices of the body's own mesh goes to these by the cell's shape functions,
 /// as the elements' forces do.
 std::vector<cases::ToolContact> AssembledBody::tools(const State& state, double load_factor) {
@@ -113,7 +118,7 @@ std::vector<cases::ToolContact> AssembledBody::tools(const State& state, double 
   const Nodes& nodes = discretisation.nodes;
   std::vector<std::size_t> place(nodes.point.size()); // where each node is among those of the cells
   for (std::size_t i = 0; i < nodes.of_cell.size(); ++i) place[index(nodes.of_cell[i])] = i;
-  auto all = contact()->found([&](int node) -> Vector3d { return state.segment<3>(3 * node); }, load_factor);
+  auto all = equations.tools_at(load_factor, state);
   for (cases::ToolContact& tool : all) {
     std::map<int, Vector3d> on_vertices;
     for (std::size_t n = 0; n < tool.nodes.size(); ++n) {

@@ -128,6 +128,8 @@ MovingBody::MovingBody(const cases::Scene& scene, const SpringBody& springs, con
     if (real_time) motion_->step_by(step_method(*real_time, problem_, options.n_threads));
   }
   find_entries();
+  if (!scene.definition.tools.empty())
+    motion_->press_by(mechanics::Contact(mechanics::tool_sides(scene)), entries_);
 }
 
 /// What the places of a vector become as points says where they are.
@@ -205,6 +207,7 @@ cases::Solution follow(const cases::Scene& scene, MovingBody& body, const Points
       body.to_vector(start), settings);
   cases::Solution solution = solution_of(body.problem(), followed.work, points(followed.end));
   solution.trajectory = followed.trajectory;
+  solution.tools = body.motion().tools_at(solution.trajectory->time.back(), followed.end);
   return solution;
 }
 

@@ -132,6 +132,11 @@ void MovingSprings::residual(const Vector& at, double /*load_factor*/, mechanics
   // (mass M + damping C) (at - origin)
   residual += terms_->force - diagonal_.cwiseProduct(at - terms_->origin);
   if (pull_) pull_->add_force(at, residual);
+  if (contact_)
+    for (const PressedNode& node : pressed_nodes(at, Clamp::yes))
+      for (int c = 0; c < 3; ++c)
+        if (const Eigen::Index entry = node.entries[cases::index(c)]; entry >= 0)
+          residual[entry] += node.force[c];
   if (!joins_nodes()) return;
   moved_ = terms_->origin - at;
   add_joined(terms_->mass, terms_->damping, moved_, residual);
@@ -150,7 +155,46 @@ double MovingSprings::energy(const Vector& at, double /*load_factor*/) {
     added += dot(moved_, product_);
   }
   if (pull_) added += pull_->energy(at);
+  if (contact_) added += contact_->energy(displacements(at), terms_->time);
   return spring_energy(at) + added - dot(terms_->force, at);
+}
+
+void MovingSprings::press_by(mechanics::Contact contact, std::vector<std::array<Eigen::Index, 3>> entries) {
+  contact_.emplace(std::move(contact));
+  entries_of_node_ = std::move(entries);
+}
+
+mechanics::DisplacementAt MovingSprings::displacements(const Vector& at) const {
+  return [&](int node) {
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();
+    for (int c = 0; c < 3; ++c)
+      if (const Eigen::Index entry = entries_of_node_[cases::index(node)][cases::index(c)]; entry >= 0)
+        value[c] = at[entry];
+    return value;
+  };
+}
+
+double MovingSprings::size_of_press(const Vector& at) const {
+  double squared = 0;
+  for (const PressedNode& node : pressed_nodes(at, Clamp::yes)) squared += node.force.squaredNorm();
+  return std::sqrt(squared);
+}
+
+std::vector<cases::ToolContact> MovingSprings::tools_at(double time, const Vector& at) const {
+  return contact_ ? contact_->found(displacements(at), time) : std::vector<cases::ToolContact>{};
+}
+
+std::vector<MovingSprings::PressedNode> MovingSprings::pressed_nodes(const Vector& at, Clamp clamp) const {
+  std::vector<PressedNode> nodes;
+  contact_->for_each_pressed(
+      displacements(at), terms_->time, [&](const mechanics::Contact::Pressed& pressed) {
+        std::array<Eigen::Index, 3> entries = entries_of_node_[cases::index(pressed.node)];
+        for (Eigen::Index& entry : entries)
+          if (entry >= 0 && entries_.free[entry] == 0) entry = -1;
+        nodes.push_back(
+            {entries, pressed.force, clamp == Clamp::yes ? pressed.stiffness : pressed.tangent()});
+      });
+  return nodes;
 }
 
 template<class Real>

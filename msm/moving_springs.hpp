@@ -4,6 +4,7 @@
 #include "mechanics/vibrating_body.hpp"
 #include "msm/problem.hpp"
 #include "msm/spring_body.hpp"
+#include "msm/spring_laws.hpp"
 
 #include <algorithm>
 #include <array>
@@ -166,13 +167,22 @@ class MovingSprings : public mechanics::DynamicProblem {
   }
   /// The motion begins again: what has pulled, and what a method knows of earlier steps, are forgotten.
   void begin_anew() {
-    largest_pull_ = 0;
+    largest_pull_ = largest_press_ = 0;
     method_ = fresh_method_;
   }
+  /// Lets tools press the body from now on.
+  /// @param entries  each node's places in a vector; -1: none
+  void press_by(mechanics::Contact contact, std::vector<std::array<Eigen::Index, 3>> entries);
+  /// What presses it; null: no tool.
+  mechanics::Contact* contact() { return contact_ ? &*contact_ : nullptr; }
+  std::vector<cases::ToolContact> tools_at(double time, const Vector& at) const override;
   void supports_at(double time, Vector& displacement) const override {
     springs_.move_supports(displacement, time);
   }
   void set_step(const mechanics::StepTerms& terms) override;
+  void end_step(const Vector& at, double /*length*/) override {
+    if (contact_) largest_press_ = std::max(largest_press_, size_of_press(at));
+  }
   /// Supports of a method of its own are where the step has them, and take nothing along.
   bool moves_supports() const override { return !method_ && springs_.moves_supports(); }
 
@@ -190,10 +200,12 @@ class MovingSprings : public mechanics::DynamicProblem {
   using NonlinearProblem::direction;
   using NonlinearProblem::residual;
   void residual(const Vector& at, double load_factor, mechanics::Expect expect, Vector& residual) override;
-  /// Residual over the largest of the motion's forces, all pulls so far, and reactions where supports move.
+  /// Residual over the largest of the motion's forces, all pulls and tools so far, and reactions where
+  /// supports move.
   Size size(const Vector& residual, const Vector& at) override {
     double scale = std::max(terms_->scale, largest_pull_);
     if (pull_) scale = std::max(scale, pull_->size(at));
+    if (contact_) scale = std::max({scale, largest_press_, size_of_press(at)});
     if (moves_supports()) scale = std::max(scale, reaction(at));
     return {relative(std::sqrt(dot(residual, residual)), scale)};
   }
@@ -221,6 +233,15 @@ class MovingSprings : public mechanics::DynamicProblem {
   const std::optional<Pull>& pull() const { return pull_; }
   /// What was known of the one before is no longer so.
   virtual void has_pull_changed() {}
+  /// What a tool adds at a node that it presses.
+  struct PressedNode {
+    std::array<Eigen::Index, 3> entries; ///< in a vector; -1: the component is not free
+    Eigen::Vector3d force;               ///< N
+    Eigen::Matrix3d tangent;             ///< N/mm
+  };
+  bool has_tools() const { return contact_.has_value(); }
+  /// At the time of the step's equation.  @param clamp  leaves out the negative part of tangents
+  std::vector<PressedNode> pressed_nodes(const Vector& at, Clamp clamp) const;
   /// Lumped mass M + damping C, without damping by stiffness.
   const Vector& diagonal() const { return diagonal_; }
 
@@ -238,13 +259,19 @@ class MovingSprings : public mechanics::DynamicProblem {
   virtual void add_joined(double mass, double damping, const Vector& motion, Vector& product) = 0;
 
  private:
+  mechanics::DisplacementAt displacements(const Vector& at) const;
+  double size_of_press(const Vector& at) const; ///< N: norm of what tools do to nodes
+
   mechanics::NonlinearProblem& springs_;
   Entries entries_;
   std::optional<mechanics::StepTerms> terms_;
   StepMethod method_, fresh_method_; ///< the latter as it was before the first step
   Vector diagonal_;
   std::optional<Pull> pull_;
-  double largest_pull_ = 0;        ///< N
+  double largest_pull_ = 0;                                  ///< N
+  double largest_press_ = 0;                                 ///< N, of tools at the end of a step
+  std::optional<mechanics::Contact> contact_;                ///< none: no tool presses the body
+  std::vector<std::array<Eigen::Index, 3>> entries_of_node_; ///< beside it
   Vector moved_, product_, added_; ///< since the step's origin; and forces of that, N
 };
 

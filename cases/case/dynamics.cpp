@@ -62,6 +62,19 @@ std::optional<long> enough_steps(const Moved& moved, double end, long n_steps) {
 
 } // namespace
 
+Eigen::Vector3d Tool::place_on_path(double time) const {
+  const auto is_later = [](double t, const std::array<double, 4>& point) { return t < point[0]; };
+  const auto place = [](const std::array<double, 4>& point) {
+    return Eigen::Vector3d(point[1], point[2], point[3]);
+  };
+  const auto next = std::upper_bound(path.begin(), path.end(), time, is_later);
+  if (next == path.begin()) return place(path.front());
+  const auto last = std::prev(next);
+  if (next == path.end()) return place(*last);
+  const double way = (time - (*last)[0]) / ((*next)[0] - (*last)[0]);
+  return (1 - way) * place(*last) + way * place(*next);
+}
+
 int Dynamics::n_steps() const {
   return static_cast<int>(std::lround(end / step));
 }

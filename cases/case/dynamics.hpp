@@ -51,6 +51,7 @@ struct History {
   std::vector<std::array<double, 2>> points{};
   double frequency = 0; ///< Hz; other than 0: sin(2 pi frequency t)
 
+  bool is_given() const { return !points.empty() || frequency != 0; }
   double at(double time) const;          ///< at a jump what comes after it
   double just_before(double time) const; ///< at a jump what comes before it
   bool jumps() const;

@@ -182,9 +182,9 @@ inline From from_of(const Kind& kind) {
   return std::visit([](const auto& one) { return one.from; }, kind);
 }
 
-/// Whether a motion has it: forces, stresses and curvatures are measured in statics alone.
+/// Whether a motion has it: reactions, stresses and curvatures are measured in statics alone.
 inline bool is_in_time(const Kind& kind) {
-  return from_of(kind) != From::fields && from_of(kind) != From::body && from_of(kind) != From::tools;
+  return from_of(kind) != From::fields && from_of(kind) != From::body;
 }
 
 } // namespace measures

@@ -319,8 +319,9 @@ void check_boundary(Table& root, const Case& result) {
   if (std::any_of(moved.begin(), moved.end(),
                   [&](const Moved& one) { return moves(one) && has_begun(one.history); }))
     return;
-  if (std::any_of(result.tools.begin(), result.tools.end(),
-                  [](const Tool& tool) { return !tool.displacement.isZero(0); }))
+  if (std::any_of(result.tools.begin(), result.tools.end(), [&](const Tool& tool) {
+        return tool.moves() && (!tool.path.empty() || has_begun(tool.history));
+      }))
     return;
   if (loads.empty() && has_moves) refuse_late("moved");
   if (loads.empty())

@@ -160,8 +160,8 @@ Measure read_measure(Table& table, const Case& definition) {
   measure.kind = table.required("kind", read_kind<measures::Kind>);
   std::visit(MeasureKeys{table, definition.body, definition.tools}, measure.kind);
   if (definition.dynamics && !measures::is_in_time(measure.kind))
-    table.entry("kind").refuse("a measure of single nodes' displacements or of volume: forces, stresses and "
-                               "curvatures of a motion are not recorded");
+    table.entry("kind").refuse("a measure of single nodes' displacements, of volume or of a tool: reactions, "
+                               "stresses and curvatures of a motion are not recorded");
   measure.over_time = read_over_time(table, measure.kind, definition.dynamics.has_value());
   return measure;
 }

@@ -94,22 +94,13 @@ History read_shape(const Entry& entry) {
 /// A support that is somewhere else all of a sudden would have an infinite acceleration.
 void check_motion(const Moved& moved, MotionStart start, std::size_t i) {
   const Where& where = moved.region.where;
-  if (moved.history.points.empty() && moved.history.frequency == 0)
+  if (!moved.history.is_given())
     refuse(where, "moved[{}].history is missing, must say how the motion follows time beside [dynamics]", i);
   if (moved.history.jumps())
     refuse(where, "moved[{}].history jumps, must be continuous: a support has no infinite acceleration", i);
   if (start == MotionStart::rest && moved.history.at(0) != 0)
     refuse(where, "moved[{}].history is {} at time 0, must be 0 beside dynamics.start = \"rest\"", i,
            moved.history.at(0));
-}
-
-/// Steps that are longer than half a period see another sine than the case's.
-void check_sine(const History& history, const Dynamics& dynamics, const std::string& key, std::size_t i) {
-  if (history.frequency * dynamics.step < 0.5) return;
-  refuse(dynamics.where,
-         "step is {:.10g} s, must be below half a period of {}[{}].history, a sine of {:.10g} Hz: {:.10g} s, "
-         "and some twentieth of it to follow its course",
-         dynamics.step, key, i, history.frequency, 0.5 / history.frequency);
 }
 
 void check_densities(Table& root, const Case& definition) {
@@ -199,6 +190,15 @@ std::optional<OverTime> read_over_time(Table& table, const measures::Kind& kind,
   const auto given = table.optional("over_time", read_name<OverTime>);
   if (!has_dynamics || is_field) return std::nullopt;
   return given.value_or(OverTime::end);
+}
+
+/// Steps that are longer than half a period see another sine than the case's.
+void check_sine(const History& history, const Dynamics& dynamics, const std::string& key, std::size_t i) {
+  if (history.frequency * dynamics.step < 0.5) return;
+  refuse(dynamics.where,
+         "step is {:.10g} s, must be below half a period of {}[{}].history, a sine of {:.10g} Hz: {:.10g} s, "
+         "and some twentieth of it to follow its course",
+         dynamics.step, key, i, history.frequency, 0.5 / history.frequency);
 }
 
 void check_dynamics(Table& root, const Case& definition) {

@@ -34,6 +34,8 @@ struct ToolKeys {
 
  private:
   void read_place(const char* key) const {
+    if (table.has("path"))
+      return table.refuse_unless(false, {key}, "left out beside path, which says where it is");
     tool.at = table.required(key, Vector{"a point of three finite numbers (mm)"});
   }
   double radius() const { return table.required("radius", Number{"a number above 0 (mm)", is_positive}); }
@@ -41,6 +43,33 @@ struct ToolKeys {
     table.refuse_unless(false, keys, "left out: it belongs to another shape than \"" + shape + "\"");
   }
 };
+
+/// Reads [[time, x, y, z], ...].
+std::vector<std::array<double, 4>> read_path(const Entry& entry) {
+  const std::string allowed = "a list of [time (s), x, y, z (mm)], with times from 0 that ascend";
+  std::vector<std::array<double, 4>> path;
+  for (const Entry& element : entry.elements(allowed)) {
+    const std::vector<double> n = Numbers{"[time (s), x, y, z (mm)], four finite numbers", 4}(element);
+    if (!(n[0] >= 0 && (path.empty() || n[0] > path.back()[0]))) element.refuse("part of " + allowed);
+    path.push_back({n[0], n[1], n[2], n[3]});
+  }
+  return path;
+}
+
+/// Reads how a tool moves.
+void read_way(Table& keys, const Case& definition, Tool& tool) {
+  keys.refuse_unless(definition.dynamics.has_value(), {"path"},
+                     "left out without [dynamics]: a static case has no time");
+  tool.path = keys.optional("path", read_path).value_or(tool.path);
+  if (!tool.path.empty()) {
+    keys.refuse_unless(false, {"displacement", "history"}, "left out beside path, which says how it moves");
+    tool.at = {tool.path.front()[1], tool.path.front()[2], tool.path.front()[3]};
+    return;
+  }
+  tool.displacement =
+      keys.optional("displacement", Vector{"three finite numbers (mm)"}).value_or(tool.displacement);
+  tool.history = read_history(keys, definition.dynamics.has_value());
+}
 
 Tool read_tool(Table& keys, const Case& definition) {
   Tool tool;
@@ -50,12 +79,39 @@ Tool read_tool(Table& keys, const Case& definition) {
     if (other.name == tool.name) keys.entry("name").refuse("a new name: another tool has this one");
   tool.shape = keys.required("shape", read_kind<tools::Kind>);
   std::visit(ToolKeys{keys, tool}, tool.shape);
-  tool.displacement =
-      keys.optional("displacement", Vector{"three finite numbers (mm)"}).value_or(tool.displacement);
+  read_way(keys, definition, tool);
+  keys.refuse_unless(!definition.dynamics, {"steps"},
+                     "left out beside [dynamics]: its step is the tool's too");
   tool.steps = keys.optional("steps", WholeNumber{"a whole number from 1 to 1000", 1, 1000}).value_or(1);
   if (keys.has("region")) tool.region = read_region_entry(keys.entry("region"), definition.body);
   keys.know({"region"});
   return tool;
+}
+
+/// A tool that is elsewhere all of a sudden would have passed through the body.
+void check_in_time(const Case& definition) {
+  for (std::size_t i = 0; i < definition.tools.size(); ++i) {
+    const Tool& tool = definition.tools[i];
+    if (!tool.path.empty()) continue;
+    const bool moves = tool.moves();
+    if (moves && !tool.history.is_given())
+      refuse(tool.where,
+             "history is missing, must say how the tool's displacement follows time beside [dynamics]");
+    if (!moves && tool.history.is_given())
+      refuse(tool.where, "history must be left out without a displacement: the tool stays");
+    if (tool.history.jumps()) refuse(tool.where, "history jumps, must be continuous: a tool passes no body");
+    check_sine(tool.history, *definition.dynamics, "tool", i);
+  }
+  const TimeScheme& scheme = definition.dynamics->scheme;
+  if (scheme.scheme == Scheme::generalized_alpha && scheme.rho_infinity != 0)
+    refuse(definition.dynamics->where,
+           "rho_infinity is {}, must be 0 beside [[tool]]: other schemes of this family meet tools within a "
+           "step, "
+           "and have no steady force at its end; \"implicit_euler\", \"bdf2\" and \"newmark\" do",
+           scheme.rho_infinity);
+  if (definition.dynamics->start != MotionStart::rest)
+    refuse_tools(definition, "dynamics.start = \"equilibrium\"",
+                 "a motion with tools starts at rest; let a history bring the body to where it is to begin");
 }
 
 } // namespace
@@ -78,8 +134,7 @@ void read_tools(Table& root, Case& result) {
 
 void check_tools(const Case& definition) {
   if (definition.tools.empty()) return;
-  if (definition.dynamics)
-    refuse_tools(definition, "[dynamics]", "contact with tools is solved in statics alone");
+  if (definition.dynamics) check_in_time(definition);
   if (definition.msm.solver != Solver::newton)
     refuse_tools(definition, "another solver than \"newton\"", "it knows no contact");
   if (definition.msm.real_time || definition.fem.real_time)

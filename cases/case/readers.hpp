@@ -86,6 +86,8 @@ MaterialDynamics read_material_dynamics(Table& table, bool has_dynamics);
 
 /// Reads the history of a load or motion; the key is refused in a static case.
 History read_history(Table& table, bool has_dynamics);
+/// Refuses a sine that the case's steps cannot follow.  @param key, i  of the table, for the message
+void check_sine(const History& history, const Dynamics& dynamics, const std::string& key, std::size_t i);
 
 /// Reads over_time of a measure.
 std::optional<OverTime> read_over_time(Table& table, const measures::Kind& kind, bool has_dynamics);

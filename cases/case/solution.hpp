@@ -66,6 +66,7 @@ struct Trajectory {
   std::vector<int> nodes;                    ///< watched ones of the body's mesh, ascending
   std::vector<Eigen::Vector3d> displacement; ///< mm, the watched nodes' at the first time, at the second ...
   std::vector<double> volume;                ///< the body's at these times, mm³; empty: it is not watched
+  std::vector<ToolContact> tools; ///< all tools' at the first time, at the second ..., without nodes
   struct Body {
     int step;                                  ///< place among the times
     std::vector<Eigen::Vector3d> displacement; ///< mm, one per node of the body's mesh

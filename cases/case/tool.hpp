@@ -42,7 +42,8 @@ using Kind = std::variant<Sphere, Cylinder, Punch, Plane>;
 
 } // namespace tools
 
-/// A rigid tool, which at load factor s is s times its displacement from where it begins.
+/// A rigid tool, which at load factor s is s times its displacement from where it begins; in a dynamic case
+/// the factor is its history's, or its path says where it is.
 struct Tool {
   std::string name;
   tools::Kind shape;
@@ -50,8 +51,22 @@ struct Tool {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero(); ///< mm at full load
   std::optional<Region> region{};                         ///< what it may touch; absent: all of the surface
   int steps = 1;                                          ///< load steps, at least
+  History history{};                                      ///< in dynamic cases alone
+  /// There too, in place of `at`, displacement and history: times (s), which ascend, and where it is (mm);
+  /// straight between them, at rest before and after them.
+  std::vector<std::array<double, 4>> path{};
   Where where{};
+
+  /// Where it is, mm.  @param at_factor  load factor; in a dynamic case the time, s
+  Eigen::Vector3d place(double at_factor) const {
+    if (!path.empty()) return place_on_path(at_factor);
+    return at + (history.is_given() ? history.at(at_factor) : at_factor) * displacement;
+  }
+  bool moves() const { return !displacement.isZero(0) || path.size() > 1; }
+
+ private:
+  Eigen::Vector3d place_on_path(double time) const;
 };
-SPRINGPROOF_FIELDS(Tool, name, shape, at, displacement, region, steps, where)
+SPRINGPROOF_FIELDS(Tool, name, shape, at, displacement, region, steps, history, path, where)
 
 } // namespace springproof::cases

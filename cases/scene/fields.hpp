@@ -35,8 +35,8 @@ SPRINGPROOF_FIELDS(springproof::cases::FromEquilibrium, tolerance, largest, root
 SPRINGPROOF_FIELDS(springproof::cases::FieldNorms, root_mean_square, largest)
 SPRINGPROOF_FIELDS(springproof::cases::Trajectory::Body, step, displacement)
 SPRINGPROOF_FIELDS(springproof::cases::Vibration, omega, damping_ratio)
-SPRINGPROOF_FIELDS(springproof::cases::Trajectory, time, nodes, displacement, volume, bodies, halved_steps,
-                   unfinished_steps, largest_residual, slowest)
+SPRINGPROOF_FIELDS(springproof::cases::Trajectory, time, nodes, displacement, volume, tools, bodies,
+                   halved_steps, unfinished_steps, largest_residual, slowest)
 
 /// Leaves out `sharing`, which the reader has to know.
 template<class Archive>

@@ -51,9 +51,8 @@ Scene scene_at_end(const Scene& scene) {
 }
 
 bool has_load_histories(const Scene& scene) {
-  return std::any_of(scene.loads.begin(), scene.loads.end(), [](const auto& applied) {
-    return !applied.load.history.points.empty() || applied.load.history.frequency != 0;
-  });
+  return std::any_of(scene.loads.begin(), scene.loads.end(),
+                     [](const auto& applied) { return applied.load.history.is_given(); });
 }
 
 bool jumps_on_the_way(const Scene& scene) {

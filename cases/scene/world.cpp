@@ -70,6 +70,11 @@ struct LeaveWorld {
   void tool(Tool& tool) const {
     point(tool.at);
     direction(tool.displacement);
+    for (auto& [time, x, y, z] : tool.path) {
+      Vector3d place(x, y, z);
+      point(place);
+      std::tie(x, y, z) = std::tie(place.x(), place.y(), place.z());
+    }
     const auto of_shape = [&](auto& shape) {
       using Shape = std::decay_t<decltype(shape)>;
       if constexpr (std::is_same_v<Shape, tools::Cylinder> || std::is_same_v<Shape, tools::Punch>)

@@ -201,17 +201,23 @@ struct ZeroOfValues {
     return relative_zero * largest_norm(solution.fields->strain, solution);
   }
   double operator()(const measures::Curvature&) const { return length() / (size() * size()); }
-  double operator()(const measures::ToolForce& kind) const {
-    return relative_zero * solution.tools[kind.tool].force.norm();
-  }
+  double operator()(const measures::ToolForce& kind) const { return relative_zero * force_of(kind.tool); }
   double operator()(const measures::ToolTorque& kind) const {
-    return relative_zero * size() * solution.tools[kind.tool].force.norm();
+    return relative_zero * size() * force_of(kind.tool);
   }
   double operator()(const measures::ContactArea&) const { return relative_zero * size() * size(); }
   double operator()(const measures::Penetration&) const { return length(); }
   double operator()(const measures::Volume&) const { return 0; }       // none is zero
   double operator()(const measures::StrainEnergy&) const { return 0; } // nor that of what is deformed
 
+  /// Size of a tool's force, in a motion its largest.
+  double force_of(std::size_t tool) const {
+    double largest = solution.tools[tool].force.norm();
+    if (solution.trajectory)
+      for (std::size_t n = tool; n < solution.trajectory->tools.size(); n += solution.tools.size())
+        largest = std::max(largest, solution.trajectory->tools[n].force.norm());
+    return largest;
+  }
   double length() const { return zero_of_displacements(scene, solution); }
   double size() const { return cases::bounding_box(scene.mesh.nodes).sizes().norm(); }
 };
@@ -295,8 +301,17 @@ TimeSeries series_of(const cases::Measure& measure, const cases::Scene& scene,
   if (cases::is<measures::Volume>(measure)) return {seen.time, seen.volume, zero};
   if (cases::is_field_norm(measure.kind))
     return {{seen.time.back()}, {evaluate(measure, scene, solution)}, zero};
-  const NodeMeasure of_nodes(measure, scene);
   TimeSeries series{seen.time, {}, zero};
+  if (cases::is_of_tools(measure.kind)) {
+    cases::Solution at_step; // all that such a measure reads
+    const auto n_tools = static_cast<std::ptrdiff_t>(solution.tools.size());
+    for (auto first = seen.tools.begin(); first != seen.tools.end(); first += n_tools) {
+      at_step.tools.assign(first, first + n_tools);
+      series.value.push_back(evaluate(measure, scene, at_step));
+    }
+    return series;
+  }
+  const NodeMeasure of_nodes(measure, scene);
   for (std::size_t step = 0; step < seen.time.size(); ++step)
     series.value.push_back(of_nodes.at([&](int node) -> Vector3d {
       const auto place = std::lower_bound(seen.nodes.begin(), seen.nodes.end(), node) - seen.nodes.begin();

@@ -16,7 +16,7 @@ namespace springproof::compare {
 namespace {
 
 /// First line of a kept file. Counted up when the fields of compare/solve/fields.hpp change their meaning.
-const std::string heading = "springproof answers, format 5\n";
+const std::string heading = "springproof answers, format 6\n";
 
 bool is_finite(double value) {
   return std::isfinite(value);
@@ -38,8 +38,8 @@ bool fit(const std::optional<cases::Fields>& fields, const cases::Mesh& mesh) {
          is_finite(reaction) && is_finite(energy) && is_finite(stress) && is_finite(strain);
 }
 
-/// Whether a motion is one of a body with that many nodes at least.
-bool is_sound(const cases::Trajectory& motion, std::size_t n_nodes) {
+/// Whether a motion is one of a body with that many nodes at least, and with so many tools.
+bool is_sound(const cases::Trajectory& motion, std::size_t n_nodes, std::size_t n_tools) {
   const std::size_t n = motion.time.size();
   const auto is_node = [&](int node) { return node >= 0 && cases::index(node) < n_nodes; };
   const auto is_body = [&](const cases::Trajectory::Body& body) {
@@ -47,7 +47,7 @@ bool is_sound(const cases::Trajectory& motion, std::size_t n_nodes) {
            is_finite(body.displacement);
   };
   return n > 0 && motion.displacement.size() == n * motion.nodes.size() &&
-         (motion.volume.empty() || motion.volume.size() == n) &&
+         (motion.volume.empty() || motion.volume.size() == n) && motion.tools.size() == n * n_tools &&
          (!motion.slowest || (motion.slowest->omega > 0 && std::isfinite(motion.slowest->omega) &&
                               std::isfinite(motion.slowest->damping_ratio))) &&
          std::is_sorted(motion.time.begin(), motion.time.end()) &&
@@ -63,7 +63,8 @@ void check(const cases::Solution& solution, const cases::Mesh& mesh) {
     return size == expected || (size == 0 && solution.status != cases::Status::converged);
   };
   const bool has_numbers = is_finite(solution.displacement) && is_finite(solution.cell_volume);
-  const bool is_moved = !solution.trajectory || is_sound(*solution.trajectory, mesh.nodes.size());
+  const bool is_moved =
+      !solution.trajectory || is_sound(*solution.trajectory, mesh.nodes.size(), solution.tools.size());
   if (!fit(solution.fields, mesh))
     throw std::runtime_error("has fields that are not those of the case's mesh");
   if (!is_empty_or(solution.displacement.size(), mesh.nodes.size()) ||

@@ -61,7 +61,7 @@ void Contact::for_each_point(const DisplacementAt& displacement, double load_fac
                              const Action& action) const {
   for (std::size_t s = 0; s < sides_.size(); ++s) {
     const auto& [tool, points] = sides_[s];
-    const Vector3d place = place_of(tool, load_factor);
+    const Vector3d place = tool.place(load_factor);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vector3d from_tool = points[i].rest + displacement(points[i].node) - place;
       const SignedDistance distance = signed_distance(tool.shape, from_tool);
@@ -101,7 +101,7 @@ Contact::Misfit Contact::misfit(const DisplacementAt& displacement, double load_
   for_each_point(displacement, load_factor,
                  [&](std::size_t s, std::size_t i, const SignedDistance& distance, double pressure) {
                    const auto& [tool, points] = sides_[s];
-                   const Vector3d rest = points[i].rest - place_of(tool, load_factor);
+                   const Vector3d rest = points[i].rest - tool.place(load_factor);
                    indentation = std::max(indentation, -signed_distance(tool.shape, rest).value);
                    if (!(pressure > 0)) return;
                    way = std::max(way, displacement(points[i].node).norm());
@@ -139,7 +139,7 @@ std::vector<cases::ToolContact> Contact::found(const DisplacementAt& displacemen
                    const Vector3d force = pressure * points[i].area * distance.normal;
                    const Vector3d at = points[i].rest + displacement(points[i].node);
                    here.force += force;
-                   here.torque += (at - place_of(tool, load_factor)).cross(force);
+                   here.torque += (at - tool.place(load_factor)).cross(force);
                    // the sides of an edge that the tool does not face are not pressed
                    here.area += std::clamp(-points[i].facing.dot(distance.normal), 0., points[i].area);
                    here.nodes.push_back(points[i].node);
@@ -152,7 +152,7 @@ double contact_modulus(const cases::Scene& scene) {
   double largest = 0;
   for (const cases::Material& material : cases::materials_of(scene.definition))
     largest = std::max(largest, std::visit([](const auto& one) { return modulus_of(one); }, material));
-  return largest;
+  return (scene.definition.dynamics ? 100 : 10) * largest;
 }
 
 std::vector<ToolSide> tool_sides(const cases::Scene& scene) {

@@ -12,6 +12,8 @@
 /// A (p² - lambda²)/(2 epsilon) is an augmented Lagrangian: an equilibrium is found at fixed multipliers,
 /// which then take the pressure's value, until the surface is where the tool is (Uzawa). Points are nodes
 /// with the integral of their shape function over the surface: forces then have a limit under refinement.
+/// In a motion multipliers stay 0 and the penalty is ten times as stiff: the force is then a function of the
+/// displacement alone, without a memory of earlier steps that a step taken again would have to take back.
 /// Source: J. C. Simo and T. A. Laursen, An augmented Lagrangian treatment of contact problems involving
 /// friction, Computers & Structures 42 (1992).
 namespace springproof::mechanics {
@@ -34,12 +36,13 @@ struct ToolSide {
   std::vector<SurfacePoint> points;
 };
 
-/// What the contact of a body with its tools adds to an equilibrium.
+/// What the contact of a body with its tools adds to an equilibrium, or to a motion's equations: there a load
+/// factor is a time (s).
 class Contact {
  public:
   /// Draws the penalty from the size of a face's side (mm).
   /// @param modulus  contact_modulus() of the scene, MPa
-  static double penalty(double modulus, double size) { return 10 * modulus / size; }
+  static double penalty(double modulus, double size) { return modulus / size; }
 
   explicit Contact(std::vector<ToolSide> sides);
 
@@ -75,6 +78,10 @@ class Contact {
   int revision() const { return revision_; }
 
   const std::vector<ToolSide>& sides() const { return sides_; }
+  /// Has a tool go where a path says from now on.  @param path  as Tool::path
+  void lead(std::size_t tool, std::vector<std::array<double, 4>> path) {
+    sides_[tool].tool.path = std::move(path);
+  }
   /// What the tools do to the body, with the forces on nodes in the numbers of the model.
   std::vector<cases::ToolContact> found(const DisplacementAt& displacement, double load_factor) const;
 
@@ -87,7 +94,8 @@ class Contact {
   void for_each_point(const DisplacementAt& displacement, double load_factor, const Action& action) const;
 };
 
-/// Young's modulus at rest of a scene's stiffest material, MPa.
+/// Young's modulus at rest of a scene's stiffest material, MPa, times 10; times 100 in a motion, where
+/// nothing corrects the penalty.
 double contact_modulus(const cases::Scene& scene);
 
 /// The tools of a scene with the vertices of the faces that they may touch.

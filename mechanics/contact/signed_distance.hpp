@@ -17,9 +17,4 @@ struct SignedDistance {
 /// @param from_tool  the point as seen from the tool's place (Tool::at), mm
 SignedDistance signed_distance(const cases::tools::Kind& shape, const Eigen::Vector3d& from_tool);
 
-/// Returns where a tool is at a load factor, mm.
-inline Eigen::Vector3d place_of(const cases::Tool& tool, double load_factor) {
-  return tool.at + load_factor * tool.displacement;
-}
-
 } // namespace springproof::mechanics

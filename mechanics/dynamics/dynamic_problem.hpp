@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/case/dynamics.hpp"
+#include "cases/case/solution.hpp"
 #include "mechanics/equilibrium/nonlinear_problem.hpp"
 
 #include <limits>
@@ -43,6 +44,7 @@ struct StepTerms {
   bool is_substep = false;
   /// s from the step's beginning to its equation: what a material's memory fades in. Infinite: all has faded.
   double duration = std::numeric_limits<double>::infinity();
+  double time = 0; ///< s: the equation's, at which tools are where their histories say
 };
 
 /// Nonlinear equations of a body that has mass. Masses are in tonnes (N s²/mm). In a step in time
@@ -61,6 +63,11 @@ class DynamicProblem : public NonlinearProblem {
   virtual void external_force(double time, Vector& force) = 0;
   /// Writes where supports are at a time to the constrained entries of a displacement, mm.
   virtual void supports_at(double /*time*/, Vector& /*displacement*/) const {}
+
+  /// What the tools do to the body in a state at a time (s), without the forces on single nodes.
+  virtual std::vector<cases::ToolContact> tools_at(double /*time*/, const Vector& /*displacement*/) const {
+    return {};
+  }
 
   /// Fills in those entries of a velocity or acceleration that follow from this rank's degrees of freedom:
   /// entries of other ranks, unknowns that were condensed.

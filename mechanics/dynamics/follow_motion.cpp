@@ -28,6 +28,11 @@ class Record {
     for (const int node : trajectory_.nodes)
       trajectory_.displacement.push_back(displacement[cases::index(node)]);
     if (has_volume_) trajectory_.volume.push_back(body_.volume(state));
+    for (cases::ToolContact& tool : body_.problem.tools_at(time, state)) {
+      tool.nodes.clear();
+      tool.on_nodes.clear();
+      trajectory_.tools.push_back(std::move(tool));
+    }
     if (step % dynamics_.write_every == 0 || step == dynamics_.n_steps())
       trajectory_.bodies.push_back({step, displacement});
   }

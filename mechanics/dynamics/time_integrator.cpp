@@ -52,7 +52,9 @@ void TimeIntegrator::start() {
   scale_ = norm(force_);
   problem_.damping_product(now_.velocity, product_);
   force_ -= product_;
-  problem_.set_step({0, 0, now_.displacement, force_, now_.displacement, 1});
+  StepTerms terms{0, 0, now_.displacement, force_, now_.displacement, 1};
+  terms.time = now_.time;
+  problem_.set_step(terms);
   const Vector imbalance = problem_.residual(now_.displacement, 0);
   const double size = norm(imbalance);
   has_loads_ = scale_ > 0;
@@ -76,13 +78,15 @@ bool TimeIntegrator::try_step(double to, double target) {
   const double step = to - now_.time;
   const auto step_before = before_ ? std::optional(now_.time - before_->time) : std::nullopt;
   const StepCoefficients c = step_coefficients(scheme_, step, step_before);
-  problem_.external_force(now_.time + c.place * step, force_);
+  const double time = now_.time + c.place * step;
+  problem_.external_force(time, force_);
   const double load = norm(force_);
   has_loads_ = has_loads_ || load > 0;
   scale_ = std::max(scale_, load);
   add_known_forces(c);
   StepTerms terms{c.mass, c.damping, now_.displacement, force_, supports_, scale_};
   terms.duration = c.place * step;
+  terms.time = time;
   if (!has_loads_) { // velocity, or supports that move, drive the body
     predict(c, to, Guess::displacement_stays);
     terms.scale = 1;

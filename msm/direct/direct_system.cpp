@@ -316,7 +316,7 @@ class MovingLattice : public MovingSprings {
     free_mass_ = on_free_dofs(entries().mass, mass_);
     free_damping_ = on_free_dofs(entries().mass_damping, damping_);
     const OneThread one;
-    factorisation_.analyse(matrix_at(problem.lattice.rest, Clamp::no, 0, 0));
+    factorisation_.analyse(with_inertia(tangent_.assemble(problem.lattice.rest, Clamp::no), 0, 0));
   }
 
   void begin_motion(const Vector& at) override {
@@ -327,6 +327,7 @@ class MovingLattice : public MovingSprings {
     if (memory_) memory_->set_step(terms.duration);
   }
   void end_step(const Vector& at, double length) override {
+    MovingSprings::end_step(at, length);
     if (memory_) memory_->end_step(to_points(problem_, at), length);
   }
 
@@ -336,9 +337,10 @@ class MovingLattice : public MovingSprings {
     const Clamp clamp = convexity == mechanics::Convexity::clamped ? Clamp::yes : Clamp::no;
     const OneThread one;
     ++work_.factorisations;
-    if (!factorisation_.factorise(matrix_at(positions(problem_, at), clamp, terms().mass, terms().damping),
-                                  0))
-      return false;
+    Matrix matrix =
+        with_inertia(tangent_.assemble(positions(problem_, at), clamp), terms().mass, terms().damping);
+    if (has_tools()) add_tools(pressed_nodes(at, clamp), matrix);
+    if (!factorisation_.factorise(matrix, 0)) return false;
     step.setZero(at.size());
     const auto invert = [&](const Vector& right_side, Vector& solution) {
       solution.head(tangent_.n_free()) = factorisation_.solve(right_side.head(tangent_.n_free()));
@@ -380,8 +382,18 @@ class MovingLattice : public MovingSprings {
   }
 
   /// Tangent + mass M + damping C, lower triangle, of one pattern whatever the factors are.
-  Matrix matrix_at(const Points& positions, Clamp clamp, double mass, double damping) {
-    return Matrix(tangent_.assemble(positions, clamp) + mass * free_mass_ + damping * free_damping_);
+  Matrix with_inertia(const Matrix& tangent, double mass, double damping) const {
+    return tangent + mass * free_mass_ + damping * free_damping_;
+  }
+
+  /// Every point of the surface has springs, so that the pattern has its block.
+  static void add_tools(const std::vector<PressedNode>& nodes, Matrix& tangent) {
+    for (const PressedNode& node : nodes)
+      for (int c = 0; c < 3; ++c)
+        for (int r = c; r < 3; ++r) {
+          const Eigen::Index row = node.entries[cases::index(r)], column = node.entries[cases::index(c)];
+          if (row >= 0 && column >= 0) tangent.coeffRef(row, column) += node.tangent(r, c);
+        }
   }
 };
 

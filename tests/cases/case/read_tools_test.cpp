@@ -20,6 +20,8 @@ std::string pressed(const std::string& tools) {
 const std::string ball = "[[tool]]\nname = 'ball'\nshape = 'sphere'\ncentre = [5, 5, 14]\nradius = 4\n"
                          "displacement = [0, 0, -1]\n";
 
+const std::string from_rest = replaced(dynamic_case, "start = 'equilibrium'", "start = 'rest'");
+
 } // namespace
 
 TEST_CASE("tools of every shape are read, and one that moves takes the place of a load") {
@@ -76,12 +78,48 @@ TEST_CASE("a mistake in a tool is refused where it stands, with what is allowed"
           {"left out beside another solver than \"newton\""});
 }
 
-TEST_CASE("a motion refuses tools, and a measure of a tool a case without one") {
-  check_case_refused(
-      replaced(dynamic_case, "[[load]]", ball + "[[load]]"),
-      1 + static_cast<int>(std::count(dynamic_case.begin(),
-                                      dynamic_case.begin() + long(dynamic_case.find("[[load]]")), '\n')),
-      "tool[0]", {"left out beside [dynamics]", "in statics alone"});
+TEST_CASE("a tool of a motion has a history or a path, and takes the place of a load") {
+  const auto moved = [&](const std::string& tool) {
+    return replaced(from_rest, "[[load]]", tool + "[[load]]");
+  };
+  const Case by_history = read_text(moved(ball + "history = { ramp = [0.01, 0.03] }\n"));
+  REQUIRE(by_history.tools.size() == 1);
+  CHECK(by_history.tools[0].place(0) == Eigen::Vector3d(5, 5, 14));
+  CHECK(by_history.tools[0].place(0.02).isApprox(Eigen::Vector3d(5, 5, 13.5)));
+  CHECK(by_history.tools[0].place(1) == Eigen::Vector3d(5, 5, 13));
+  const Case by_path = read_text(moved("[[tool]]\nname = 'ball'\nshape = 'sphere'\nradius = 4\n"
+                                       "path = [[0.01, 5, 5, 14], [0.03, 5, 7, 13]]\n"));
+  REQUIRE(by_path.tools.size() == 1);
+  CHECK(by_path.tools[0].place(0) == Eigen::Vector3d(5, 5, 14));
+  CHECK(by_path.tools[0].place(0.015).isApprox(Eigen::Vector3d(5, 5.5, 13.75)));
+  CHECK(by_path.tools[0].place(0.03) == Eigen::Vector3d(5, 7, 13));
+  CHECK(by_path.tools[0].place(2) == Eigen::Vector3d(5, 7, 13));
+}
+
+TEST_CASE("a mistake in how a tool moves is refused where it stands") {
+  const std::string good = replaced(from_rest, "[[load]]", ball + "history = { ramp = [0, 0.1] }\n[[load]]");
+  const auto line_of = [&](const std::string& text) {
+    return 1 + static_cast<int>(std::count(good.begin(), good.begin() + long(good.find(text)), '\n'));
+  };
+  const auto refused = mistakes_in(good);
+  const int at_tool = line_of("[[tool]]"), at_history = line_of("history = { ramp = [0, 0.1] }");
+  refused("history = { ramp = [0, 0.1] }\n", "", at_tool, "tool[0]", {"history is missing"});
+  refused("history = { ramp = [0, 0.1] }", "history = { step = 0.1 }", at_tool, "tool[0]", {"history jumps"});
+  refused("displacement = [0, 0, -1]\n", "", at_tool, "tool[0]", {"history must be left out"});
+  refused("scheme = 'newmark'", "scheme = 'generalized_alpha'\nrho_infinity = 0.5", line_of("[dynamics]"),
+          "dynamics", {"rho_infinity is 0.5, must be 0 beside [[tool]]"});
+  refused("start = 'rest'", "start = 'equilibrium'", at_tool, "tool[0]", {"starts at rest"});
+  refused("history = { ramp = [0, 0.1] }", "steps = 2", at_history, "tool[0].steps",
+          {"left out beside [dynamics]"});
+  refused("history = { ramp = [0, 0.1] }", "path = [[0, 1, 1, 1]]", line_of("centre"), "tool[0].centre",
+          {"left out beside path"});
+  check_case_refused(replaced(good_case, "[[load]]", ball + "history = { ramp = [0, 1] }\n[[load]]"),
+                     6 + static_cast<int>(std::count(
+                             good_case.begin(), good_case.begin() + long(good_case.find("[[load]]")), '\n')),
+                     "tool[0].history", {"a static case has no time"});
+}
+
+TEST_CASE("a measure of a tool is refused in a case without one") {
   check_case_refused(
       replaced(good_case, "kind = 'tilt'", "kind = 'penetration'\ntool = 'ball'"),
       2 + static_cast<int>(

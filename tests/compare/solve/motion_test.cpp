@@ -256,6 +256,7 @@ TEST_CASE("a motion keeps its way through bytes, and damaged ones are refused") 
     CHECK_THROWS(compare::result_from<compare::Answer>(cases::to_bytes(damaged), mesh));
   };
   refuses([](cases::Trajectory& motion) { motion.displacement.pop_back(); });
+  refuses([](cases::Trajectory& motion) { motion.tools.emplace_back(); });
   refuses([](cases::Trajectory& motion) { motion.nodes.front() = 1000000; });
   refuses([](cases::Trajectory& motion) { motion.bodies.front().step = -1; });
   REQUIRE(copy.solution.trajectory->slowest);
