@@ -27,12 +27,13 @@ bool takes_multigrid(const cases::Scene& scene, const SpringBody& springs, Path 
            cell.volume < 0;
   };
   const bool can = scene.mesh.grid && cells && !cases::has_memory(scene.definition) &&
-                   scene.definition.tools.empty() && std::none_of(cells->begin(), cells->end(), is_another);
+                   (scene.definition.tools.empty() || scene.definition.dynamics) &&
+                   std::none_of(cells->begin(), cells->end(), is_another);
   if (wanted == Path::multigrid && !can)
     throw cases::InputError(
         "the multigrid path needs a body that is a grid of cells of edges, face diagonals, "
         "internal diagonals and a volume term, springs of one law, no negative stiffness, "
-        "a material without prony and a case without tools");
+        "a material without prony and, in statics, a case without tools");
   if (wanted != Path::automatic) return wanted == Path::multigrid;
   return can && prefers_multigrid(*scene.mesh.grid, double(scene.mesh.nodes.size()));
 }

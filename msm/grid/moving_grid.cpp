@@ -13,6 +13,8 @@ namespace springproof::msm::grid {
 
 namespace {
 
+using cases::index;
+
 CellSprings sum(CellSprings a, double factor, const CellSprings& b) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     a.edge[axis] += factor * b.edge[axis];
@@ -137,6 +139,7 @@ class MovingGrid : public MovingSprings {
                  mechanics::Convexity convexity, Vector& step) override {
     const Clamp clamp = convexity == mechanics::Convexity::clamped ? Clamp::yes : Clamp::no;
     const auto enough = terms().enough_linear_iterations;
+    if (has_tools()) see_tools(at, clamp);
     const bool is_done = (has_factor(at) && goes_by_factor(at, residual, forcing, clamp)) ||
                          (enough ? goes_by_cut_cycles(at, residual, forcing, clamp)
                                  : goes_by_cycles(at, residual, forcing, clamp));
@@ -189,6 +192,9 @@ class MovingGrid : public MovingSprings {
   bool has_failed_ = false;
   bool is_prepared_ = false; ///< the cycle was, in this step
 
+  std::vector<PressedNode> pressed_;             ///< by tools, where the last direction begins
+  std::vector<Eigen::Index> pressed_in_cycle_{}; ///< those that the cycle knows, by entries of a field
+
   /// Preconditioners with what pulls, where they are known for it.
   std::optional<WithPull<double>> factor_with_pull_, cycle_with_pull_;
 
@@ -236,6 +242,41 @@ class MovingGrid : public MovingSprings {
         out_, product);
     add_product(product, diagonal(), direction, n_threads_);
     add_damping(terms().damping, v, product);
+    for (const PressedNode& node : pressed_)
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+          if (const Eigen::Index row = node.entries[index(r)], column = node.entries[index(c)];
+              row >= 0 && column >= 0)
+            product[row] += node.tangent(r, c) * direction[column];
+  }
+
+  /// Sets what tools press. A cycle of other nodes is prepared anew.
+  void see_tools(const Vector& at, Clamp clamp) {
+    pressed_ = pressed_nodes(at, clamp);
+    std::vector<Eigen::Index> nodes;
+    for (const PressedNode& node : pressed_) nodes.push_back(x_in_field(node));
+    if (nodes != pressed_in_cycle_) speed_.forget(), is_prepared_ = false;
+    if (real_time_) real_time_->set_blocks(blocks(multigrid_->scale()));
+  }
+  /// The entry of a field for x of a pressed node, of which a component at least is free, or -1.
+  std::ptrdiff_t x_in_field(const PressedNode& node) const {
+    for (int c = 0; c < 3; ++c)
+      if (const Eigen::Index entry = node.entries[index(c)]; entry >= 0)
+        return vectors_.in_field(entry) - c * body_.layout.size;
+    return -1;
+  }
+  std::vector<NodeBlock> blocks(double scale) const {
+    std::vector<NodeBlock> all;
+    for (const PressedNode& node : pressed_) {
+      Eigen::Matrix3d block = scale * node.tangent;
+      for (int c = 0; c < 3; ++c)
+        if (node.entries[index(c)] < 0) {
+          block.row(c).setZero();
+          block.col(c).setZero();
+        }
+      if (const std::ptrdiff_t x = x_in_field(node); x >= 0) all.push_back({x, block.cast<float>()});
+    }
+    return all;
   }
 
   /// @param precondition  approximate inverse of multiply() times `scale`
@@ -273,6 +314,7 @@ class MovingGrid : public MovingSprings {
 
   /// Whether there is a factor for this step; makes one that is due.
   bool has_factor(const Vector& at) {
+    if (has_tools()) return false; // whom they press changes
     if (factor_ && schedule_.is_due()) {
       schedule_.make();
       factor_with_pull_.reset();
@@ -314,6 +356,11 @@ class MovingGrid : public MovingSprings {
   }
 
   void linearise(const Vector& at) {
+    if (has_tools()) {
+      pressed_in_cycle_.clear();
+      for (const PressedNode& node : pressed_) pressed_in_cycle_.push_back(x_in_field(node));
+      multigrid_->set_blocks(blocks(multigrid_->scale()));
+    }
     multigrid_->linearise(vectors_.to_field(at, at_));
     if (cycle_with_pull_ && cycle_with_pull_->matters()) cycle_with_pull_.reset();
     if (real_time_) real_time_->has_cycle_changed();
@@ -344,6 +391,7 @@ class MovingGrid : public MovingSprings {
       real_time_.emplace(body_, vectors_, multigrid_->scale(), damping_body_,
                          cell_masses_ ? &*cell_masses_ : nullptr, n_threads_);
       real_time_->set_pull(pull());
+      real_time_->set_blocks(blocks(multigrid_->scale()));
     }
     if (!is_set_) real_time_->set_step(diagonal(), terms().mass, terms().damping);
     is_set_ = true;

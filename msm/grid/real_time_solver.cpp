@@ -44,6 +44,7 @@ void RealTimeSolver::multiply(Clamp clamp, const Field<float>& direction, Field<
     damping_->product(Clamp::no, rest_, direction, damped_);
     add(product, static_cast<float>(damping_factor_), damped_, n_threads_);
   }
+  add_blocks(blocks_, body_.layout.size, direction, product);
   if (pull_) pull_->add_product(direction, product);
 }
 

@@ -27,6 +27,8 @@ class RealTimeSolver {
   void set_step(const Vector& diagonal, double mass, double damping);
   /// Sets what pulls from now on.
   void set_pull(const std::optional<Pull>& pull);
+  /// Sets what tools add.  @param blocks  N/mm times scale
+  void set_blocks(std::vector<NodeBlock> blocks) { blocks_ = std::move(blocks); }
   /// Must be called when the cycle given to solve() has changed.
   void has_cycle_changed();
 
@@ -51,6 +53,7 @@ class RealTimeSolver {
   std::optional<SpringField<float>> damping_;
   std::optional<ConsistentMasses<float>> masses_;
   double mass_factor_ = 0, damping_factor_ = 0;
+  std::vector<NodeBlock> blocks_;
   Field<float> diagonal_, at_, rest_, right_side_, damped_;
   mechanics::grid::KeptFields<float> kept_;
   mechanics::grid::LinearSolutionIn<float> found_;

@@ -3,6 +3,7 @@
 #include "msm/grid/merged_cells.hpp"
 #include "msm/grid/transfer.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -74,8 +75,33 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
   }
 
   Field<float> displacement;
-  Field<float> diagonal; ///< added to that of the springs; empty: none
-  Operator joined;       ///< added to the product; empty: none
+  Field<float> diagonal;         ///< added to that of the springs; empty: none
+  Operator joined;               ///< added to the product; empty: none
+  std::vector<NodeBlock> blocks; ///< added too
+
+  /// Sets the blocks from the finer level's. Nodes' blocks are two fields of vectors: xx, yy, zz and yz, xz,
+  /// xy.
+  void restrict_blocks() {
+    Field<float> fine[2], coarse[2];
+    const std::ptrdiff_t n = body_.layout.size, n_fine = finer_->body_.layout.size;
+    for (int half = 0; half < 2; ++half) {
+      fine[half].setZero(3 * n_fine);
+      coarse[half].setZero(3 * n);
+      for (const auto& [x, block] : finer_->blocks)
+        for (int c = 0; c < 3; ++c)
+          fine[half][x + c * n_fine] = half == 0 ? block(c, c) : block((c + 1) % 3, (c + 2) % 3);
+      transfer_->restrict(fine[half], coarse[half]);
+    }
+    blocks.clear();
+    for (std::ptrdiff_t x = 0; x < n; ++x) {
+      const Eigen::Vector3f on(coarse[0][x], coarse[0][x + n], coarse[0][x + 2 * n]),
+          off(coarse[1][x], coarse[1][x + n], coarse[1][x + 2 * n]);
+      if (on.isZero(0)) continue;
+      Eigen::Matrix3f block = on.asDiagonal();
+      for (int c = 0; c < 3; ++c) block((c + 1) % 3, (c + 2) % 3) = block((c + 2) % 3, (c + 1) % 3) = off[c];
+      blocks.push_back({x, block});
+    }
+  }
 
   void restrict_diagonal() {
     diagonal.setZero(displacement.size());
@@ -85,6 +111,7 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
   void linearise() override {
     if (finer_) transfer_->sample(finer_->displacement, displacement);
     springs_.inverse_diagonal(Clamp::yes, displacement, inverse_diagonal_, diagonal);
+    for (NodeBlock& added : blocks) add_to_inverse(added);
     constexpr float small = 0.1f; // share of the masses below which the smoother does without
     has_joined_ = joined && diagonal.cwiseProduct(inverse_diagonal_.head(diagonal.size())).maxCoeff() > small;
   }
@@ -92,6 +119,7 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
     springs_.product(Clamp::yes, displacement, direction, product);
     if (diagonal.size() > 0) add_product(product, diagonal, direction, n_threads_);
     if (has_joined_) joined(direction, product);
+    add_blocks(blocks, body_.layout.size, direction, product);
   }
   double norm(const Field<float>& field) const override { return grid::norm(body_, field, n_threads_); }
   void set_rough(Field<float>& rough) const override {
@@ -134,6 +162,26 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
   }
 
  private:
+  /// Makes a node's inverse D that of its block with another one, B: (D^-1 + B)^-1 = D (1 + B D)^-1.
+  /// Takes constrained components out of B.
+  void add_to_inverse(NodeBlock& added) {
+    const std::ptrdiff_t n = body_.layout.size;
+    const auto entry = [&](int i, int j) -> float& { // xx, yy, zz, yz, xz, xy
+      return inverse_diagonal_[added.x + n * (i == j ? i : 6 - i - j)];
+    };
+    Eigen::Matrix3f inverse;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) inverse(i, j) = entry(i, j);
+    for (int i = 0; i < 3; ++i)
+      if (!(inverse(i, i) > 0)) {
+        added.block.row(i).setZero();
+        added.block.col(i).setZero();
+      }
+    const Eigen::Matrix3f both = inverse * (Eigen::Matrix3f::Identity() + added.block * inverse).inverse();
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j) entry(i, j) = (both(i, j) + both(j, i)) / 2;
+  }
+
   const Body& body_;
   bool has_joined_ = false;
   SpringField<float> springs_;
@@ -163,6 +211,12 @@ void SpringLevels::set_diagonal(const Field<double>& diagonal, Operator joined) 
     rediscretised_.front()->diagonal.segment(first, n) = diagonal.segment(first, n).cast<float>();
   });
   for (std::size_t l = 1; l < rediscretised_.size(); ++l) rediscretised_[l]->restrict_diagonal();
+  is_linearised_ = false;
+}
+
+void SpringLevels::set_blocks(std::vector<NodeBlock> blocks) {
+  rediscretised_.front()->blocks = std::move(blocks);
+  for (std::size_t l = 1; l < rediscretised_.size(); ++l) rediscretised_[l]->restrict_blocks();
   is_linearised_ = false;
 }
 

@@ -4,6 +4,7 @@
 #include "msm/grid/spring_field.hpp"
 
 #include <deque>
+#include <vector>
 
 namespace springproof::msm::grid {
 
@@ -14,6 +15,24 @@ Body scaled(Body body, double factor);
 constexpr mechanics::grid::Chebyshev smoother_at_rest{3, 8};
 /// The same in a step in time, where a few iterations do: half the products (0.6 of a step's time, measured).
 constexpr mechanics::grid::Chebyshev smoother_in_motion{2, 4};
+
+/// A stiffness added at a node of a field: to its x, y and z, which are `size of an array` apart.
+struct NodeBlock {
+  std::ptrdiff_t x;      ///< entry of the node's x
+  Eigen::Matrix3f block; ///< symmetric, >= 0; 0 on constrained components
+};
+
+/// product += blocks * direction
+inline void add_blocks(const std::vector<NodeBlock>& blocks, std::ptrdiff_t size_of_array,
+                       const Field<float>& direction, Field<float>& product) {
+  for (const auto& [x, block] : blocks) {
+    const std::ptrdiff_t y = x + size_of_array, z = y + size_of_array;
+    const Eigen::Vector3f added = block * Eigen::Vector3f(direction[x], direction[y], direction[z]);
+    product[x] += added[0];
+    product[y] += added[1];
+    product[z] += added[2];
+  }
+}
 
 /// Approximate inverse, but for a factor, of the clamped tangent, plus a diagonal if there is one: a
 /// multigrid cycle. Coarse lattices are rediscretised at the sampled displacement, down to few enough nodes
@@ -37,6 +56,11 @@ class SpringLevels {
   /// nothing.
   ///                  The finest level has it where the masses are no small part of a node's diagonal.
   void set_diagonal(const Field<double>& diagonal, Operator joined = {});
+
+  /// Sets stiffnesses of single nodes from the next linearise() on. Coarse levels have them restricted, as
+  /// masses are. Not for a body that is a part, and merged cells have them on the finest level alone.
+  /// @param blocks  N/mm times scale(), of the finest body
+  void set_blocks(std::vector<NodeBlock> blocks);
 
   /// Prepares the cycle at a displacement of the finest body, mm.
   void linearise(const Field<double>& displacement);
