@@ -46,6 +46,8 @@ nlohmann::ordered_json summary_to_json(const SimulationSummary& summary, const S
       {"method", summary.method},
       {"steps", summary.n_steps},
       {"pulled_steps", summary.n_pulled},
+      {"pressed_steps", summary.n_pressed},
+      {"largest_tool_force", summary.largest_tool_force},
       {"failed_steps", summary.troubles.n_failures},
       {"failure", summary.troubles.failure},
       {"unfinished_steps", summary.troubles.n_unfinished},
@@ -72,6 +74,9 @@ void print_summary(const SimulationSummary& summary, const ServerCounts& counts)
           summary.method, summary.n_steps, summary.n_pulled, summary.median_ms, summary.p99_ms,
           summary.largest_ms, *summary.keeps_60_hz() ? "keeps" : "does not keep",
           100 * summary.troubles.largest_residual);
+  if (summary.n_pressed > 0)
+    print(std::cout, "a tool pressed in {} steps, with {:.3g} N at most\n", summary.n_pressed,
+          summary.largest_tool_force);
   print(std::cout, "{} frames sent, {} dropped; {} requests refused, {} pages cut off\n",
         counts.n_frames_sent, counts.n_frames_dropped, counts.n_refused, counts.n_cut_off);
   if (summary.n_inverted_frames > 0)
@@ -87,13 +92,15 @@ void print_summary(const SimulationSummary& summary, const ServerCounts& counts)
 
 /// Writes the recording to a file that is not there already.
 /// @return where it was written; empty: there is nothing to keep
+/// @param kind  ends the file's name     @param has_any  whether there is one to keep
+template<class Write>
 std::string keep_recording(const InteractOptions& options, const cases::Case& definition,
-                           const Simulation& simulation) {
-  if (options.out.empty() || !simulation.has_recording()) return "";
-  const std::string stem = options.out + "/" + definition.name + "_pulls";
+                           const std::string& kind, bool has_any, const Write& write) {
+  if (options.out.empty() || !has_any) return "";
+  const std::string stem = options.out + "/" + definition.name + kind;
   std::string path = stem + ".csv";
   for (int number = 2; std::filesystem::exists(path); ++number) path = fmt::format("{}_{}.csv", stem, number);
-  write_file(path, [&](std::ostream& out) { simulation.write_recording(out); });
+  write_file(path, write);
   return path;
 }
 
@@ -139,15 +146,23 @@ int run(const InteractOptions& options) {
   server->run(options.seconds);
   simulation.stop();
   const SimulationSummary summary = simulation.summary();
-  const std::string kept = keep_recording(options, scene.definition, simulation); // the terminal may be gone
+  // Before a word is printed: the terminal may be gone.
+  const std::string kept = keep_recording(options, scene.definition, "_pulls", simulation.has_recording(),
+                                          [&](std::ostream& out) { simulation.write_recording(out); });
+  const std::string of_tools =
+      keep_recording(options, scene.definition, "_tools", simulation.has_tool_recording(),
+                     [&](std::ostream& out) { simulation.write_tool_recording(out); });
   if (options.json) {
     nlohmann::ordered_json interaction = summary_to_json(summary, server->counts());
     interaction["recording"] = kept.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(kept);
+    interaction["tool_recording"] =
+        of_tools.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(of_tools);
     std::cout << json_text({{"schema", 1}, {"interaction", interaction}});
   } else {
     print_summary(summary, server->counts());
-    if (!options.out.empty())
+    if (!options.out.empty() && (!kept.empty() || of_tools.empty()))
       print(std::cout, "{}\n", kept.empty() ? "nothing was pulled since the last start: no recording" : kept);
+    if (!of_tools.empty()) print(std::cout, "{}\n", of_tools);
   }
   if (simulation.is_recording_full())
     print(std::cerr, "the recording ends after {} steps with a pull\n", most_recorded);

@@ -68,8 +68,10 @@ std::array<CLI::Option*, 2> add_step_options(CLI::App& command, ClientBudget& bu
 }
 
 CLI::Option* add_replay_option(CLI::App& command, std::string& recording) {
-  return command.add_option("--replay", recording,
-                            "a recording of interact (NAME_pulls.csv), whose forces act on both models");
+  return command.add_option(
+      "--replay", recording,
+      "a recording of interact: of pulls (NAME_pulls.csv), whose forces act on both models, or of "
+      "tools (NAME_tools.csv), which move in both");
 }
 
 std::vector<Question> with_recording(std::vector<Question> questions, const std::string& recording) {

@@ -93,6 +93,23 @@ class Surface {
   }
 }
 
+// A tool of the server's description, as long as it needs to be beside a body of a size.
+function tool_mesh(tool, size) {
+  const long = 6 * size, axis = new THREE.Vector3(...(tool.axis || [0, 0, 1]));
+  const material = new THREE.MeshLambertMaterial({color: 0x8899aa, transparent: true, opacity: 0.6, side: THREE.DoubleSide});
+  let geometry = null;
+  if (tool.shape === "sphere") geometry = new THREE.SphereBufferGeometry(tool.radius, 48, 32);
+  if (tool.shape === "plane") geometry = new THREE.PlaneBufferGeometry(long, long); // across z
+  if (tool.shape === "cylinder" || tool.shape === "punch") { // along y
+    geometry = new THREE.CylinderBufferGeometry(tool.radius, tool.radius, long, 48);
+    geometry.rotateX(Math.PI / 2);
+    if (tool.shape === "punch") geometry.translate(0, 0, -long / 2); // it ends in its flat end
+  }
+  const mesh = new THREE.Mesh(geometry, material);
+  mesh.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), axis);
+  return mesh;
+}
+
 const frame_numbers = [
   "time", "steps", "median_ms", "p99_ms", "steps_per_second", "inverted", "held", "force", "failures", "drags",
   "residual", "nodes"
@@ -102,5 +119,6 @@ function read_frame(buffer) {
   const numbers = new Float64Array(buffer, 0, frame_numbers.length), frame = {};
   frame_numbers.forEach((name, i) => { frame[name] = numbers[i]; });
   frame.displacement = new Float32Array(buffer, 8 * frame_numbers.length, 3 * frame.nodes);
+  frame.tools = new Float32Array(buffer, 8 * frame_numbers.length + 12 * frame.nodes); // each one's place and force
   return frame;
 }

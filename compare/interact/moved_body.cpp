@@ -63,6 +63,7 @@ class Springs : public MovedBody {
   Eigen::Vector3d place(const Vector& state) const override { return pull_->place(state); }
   Eigen::Vector3d force(const Vector& state) const override { return pull_->force(state); }
   void remember_pull(const Vector& state) override { body_.motion().remember_pull(state); }
+  mechanics::Contact* contact() override { return body_.motion().contact(); }
 
   std::string method_text() const override {
     if (given_.real_time) return text_of(*given_.real_time, steps_.substeps);

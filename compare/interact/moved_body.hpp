@@ -2,6 +2,7 @@
 
 #include "cases/mesh/mesh.hpp"
 #include "cases/scene/scene.hpp"
+#include "mechanics/contact/contact.hpp"
 #include "mechanics/dynamics/time_integrator.hpp"
 #include "msm/spring_body.hpp"
 
@@ -35,6 +36,9 @@ class MovedBody {
   virtual Eigen::Vector3d place(const Vector& state) const = 0; ///< mm, its displacement
   virtual Eigen::Vector3d force(const Vector& state) const = 0; ///< N
   virtual void remember_pull(const Vector& state) = 0;          ///< once a step has ended
+
+  /// What tools press it with; null: the case has none.
+  virtual mechanics::Contact* contact() { return nullptr; }
 
   /// How a step is made: "xpbd, 10 iterations, 1 substep".
   virtual std::string method_text() const = 0;

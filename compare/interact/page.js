@@ -35,7 +35,7 @@ const pull = {
 
 function begin_pull(event) {
   if (!view || event.button !== 0) return;
-  const caster = view.ray(event), hit = caster.intersectObject(view.drawn.mesh)[0];
+  const caster = view.ray(event), hit = caster.intersectObjects([view.drawn.mesh, ...view.tools])[0];
   if (!hit) return; // the controls turn the body
   view.controls.enabled = false;
   stage.setPointerCapture(event.pointerId);
@@ -44,7 +44,11 @@ function begin_pull(event) {
   pull.from = hit.point.clone();
   pull.by = new THREE.Vector3();
   pull.held_from = null;
-  send({type: "grab", origin: caster.ray.origin.toArray(), direction: caster.ray.direction.toArray()});
+  const tool = view.tools.indexOf(hit.object);
+  if (tool >= 0)
+    send({type: "grab_tool", tool});
+  else
+    send({type: "grab", origin: caster.ray.origin.toArray(), direction: caster.ray.direction.toArray()});
 }
 function go_on(event) {
   if (!pull.plane) return;
@@ -129,6 +133,10 @@ function show_numbers() {
     [ "masses", description.masses ], [ "unknowns", description.unknowns ],
     [ "triangles", description.triangles ], [ "drawn", view.drawn.triangles.length / 3 ]
   ];
+  description.tools.forEach((tool, i) => {
+    const force = Math.hypot(...frame.tools.subarray(6 * i + 3, 6 * i + 6));
+    rows.push([ `${tool.name} presses with`, `${force.toPrecision(3)} N` ]);
+  });
   for (const [name, value] of rows) show_number(name, value);
   const problems = [];
   if (frame.inverted > 0) problems.push(`${frame.inverted} cells are inside out`);
@@ -146,7 +154,8 @@ socket.addEventListener("message", (event) => {
     state_line.textContent = "in control";
   } else if (!surface) {
     surface = new Surface(event.data, 0);
-    view = new View(surface, surface.end < event.data.byteLength ? new Surface(event.data, surface.end) : null);
+    view = new View(surface, surface.end < event.data.byteLength ? new Surface(event.data, surface.end) : null,
+                    description.tools);
     ask();
   } else {
     seen.bytes = event.data.byteLength;

@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int most_sizes = 100; ///< what moves further has no picture
+constexpr int most_sizes = 100;       ///< what moves further has no picture
+constexpr double largest_step = 0.02; ///< of a tool, of the body's size
 
 } // namespace
 
@@ -29,6 +30,8 @@ PulledBody::PulledBody(const cases::Scene& scene, const PullSettings& settings)
                                         "\"bdf2\": a pointer that jumps from step to "
                                         "step drives on what a scheme does not damp",
                                         scene.definition.file, cases::name_of(scheme)));
+  if (scene.definition.msm.real_time || settings.model == cases::Side::fem)
+    cases::refuse_tools(scene.definition, "a method of simulators", "its steps know no contact");
   body_ = settings.model == cases::Side::fem ? moved_elements(scene, settings.n_threads)
                                              : moved_springs(scene, settings.n_threads);
   surface_ = embedded_surface(scene);
@@ -42,6 +45,9 @@ PulledBody::PulledBody(const cases::Scene& scene, const PullSettings& settings)
 void PulledBody::restart() {
   release();
   body_->begin_anew();
+  tools_.clear();
+  for (const cases::Tool& tool : scene_.definition.tools) tools_.push_back({tool.place(0)});
+  lead_tools(0, 0);
   const mechanics::Vector start = body_->start(), at_rest = mechanics::Vector::Zero(start.size());
   motion_ =
       std::make_unique<mechanics::TimeIntegrator>(body_->motion(), scene_.definition.dynamics->scheme,
@@ -64,24 +70,49 @@ std::optional<int> PulledBody::grab(const mechanics::Ray& ray) {
   return held_;
 }
 
+void PulledBody::grab_tool(std::size_t tool) {
+  release();
+  if (tool >= tools_.size()) return;
+  held_tool_ = tool;
+  grabbed_at_ = target_ = tools_[tool].at;
+}
+
 void PulledBody::drag(const Vector3d& by) {
-  if (!held_ || !by.allFinite()) return;
+  if (!(held_ || held_tool_) || !by.allFinite()) return;
   const double length = by.norm();
   target_ = grabbed_at_ + (length > size_ ? Vector3d(size_ / length * by) : by);
 }
 
 void PulledBody::release() {
   held_.reset();
+  held_tool_.reset();
   body_->let_go();
   force_.setZero();
+}
+
+/// Tools go straight, from where they are at the begin of a step (s) to where a hand has them at its end.
+void PulledBody::lead_tools(double begin, double end) {
+  for (std::size_t i = 0; i < tools_.size(); ++i) {
+    Vector3d& at = tools_[i].at;
+    std::vector<std::array<double, 4>> path{{begin, at.x(), at.y(), at.z()}};
+    if (held_tool_ == i) {
+      const Vector3d way = target_ - at;
+      const double length = way.norm(), most = largest_step * size_;
+      at += length > most ? Vector3d(most / length * way) : way;
+      path.push_back({end, at.x(), at.y(), at.z()});
+    }
+    body_->contact()->lead(i, std::move(path));
+  }
 }
 
 void PulledBody::step() {
   if (held_) body_->draw_to(target_);
   force_.setZero();
+  const double end = static_cast<double>(n_steps_ + 1) * scene_.definition.dynamics->step;
+  lead_tools(motion_->now().time, end);
   try {
     const int n_before = motion_->n_unfinished();
-    motion_->advance(static_cast<double>(n_steps_ + 1) * scene_.definition.dynamics->step);
+    motion_->advance(end);
     if (!(body_->motion().largest(motion_->now().displacement) <= most_sizes * size_))
       throw cases::SolveError(
           fmt::format("a node has moved by more than {} times the body's size", most_sizes));
@@ -89,6 +120,8 @@ void PulledBody::step() {
     troubles_.largest_residual = std::max(troubles_.largest_residual, motion_->largest_residual());
     ++n_steps_;
     is_displacement_of_now_ = false;
+    const auto contacts = body_->motion().tools_at(end, motion_->now().displacement);
+    for (std::size_t i = 0; i < tools_.size(); ++i) tools_[i].contact = contacts[i];
     if (held_) {
       force_ = body_->force(motion_->now().displacement);
       body_->remember_pull(motion_->now().displacement);

@@ -28,6 +28,8 @@ struct StepTroubles {
 /// stiffness is stable. Its force in a step is known after the step; applied as a load of that step it gives
 /// the same solution, where a step is solved. A recording of forces can therefore be replayed in any model,
 /// and by any method.
+/// The case's tools stay where they begin until they are taken by hand; a case with tools has no method of
+/// simulators.
 class PulledBody {
  public:
   /// @throws InputError when the case has no [dynamics], or its springs cannot be designed or start, its
@@ -37,7 +39,10 @@ class PulledBody {
   /// Takes hold of the sphere that a ray meets first, if it meets one.
   /// @return the vertex of the surface that is held from now on
   std::optional<int> grab(const mechanics::Ray& ray);
-  /// Moves the pointer's end of the spring.
+  /// Takes a tool by its number in the case.
+  void grab_tool(std::size_t tool);
+  /// Moves the pointer's end of the spring, or the tool, which goes no further in a step than a fiftieth of
+  /// the body's size.
   /// @param by  mm, from where the place was when it was grabbed; at most the body's size counts
   void drag(const Eigen::Vector3d& by);
   void release();
@@ -49,7 +54,14 @@ class PulledBody {
 
   const mechanics::EmbeddedSurface& surface() const { return surface_; }
   const mechanics::Spheres& spheres() const { return spheres_; }
-  std::optional<int> held() const { return held_; }       ///< a vertex of the surface
+  std::optional<int> held() const { return held_; } ///< a vertex of the surface
+  /// A tool now, and what it does to the body.
+  struct ToolNow {
+    Eigen::Vector3d at; ///< mm
+    cases::ToolContact contact{};
+  };
+  const std::vector<ToolNow>& tools() const { return tools_; } ///< as in the case
+  std::optional<std::size_t> held_tool() const { return held_tool_; }
   const Eigen::Vector3d& force() const { return force_; } ///< N, of the spring at the end of the last step
   double time() const { return motion_->now().time; }     ///< s, since the last restart
   long n_steps() const { return n_steps_; }               ///< since the last restart
@@ -74,8 +86,12 @@ class PulledBody {
   std::optional<int> held_;
   /// mm: displacement of the place when it was grabbed, and what it is drawn to; N.
   Eigen::Vector3d grabbed_at_ = Eigen::Vector3d::Zero(), target_ = grabbed_at_, force_ = grabbed_at_;
+  std::vector<ToolNow> tools_;
+  std::optional<std::size_t> held_tool_;
   MovedBody::Points displacement_;
   bool is_displacement_of_now_ = false;
+
+  void lead_tools(double begin, double end);
 };
 
 } // namespace springproof::compare

@@ -28,6 +28,24 @@ cases::History history_of(const Hold& hold, int axis, double step) {
   return history;
 }
 
+bool is_of_tools(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \r\n\t");
+  return begin != std::string::npos &&
+         text.compare(begin, tool_recording_header.size(), tool_recording_header) == 0;
+}
+
+cases::Scene with_tools_led(cases::Scene scene, const std::string& text, const std::string& path) {
+  const cases::Dynamics& dynamics = *scene.definition.dynamics;
+  std::vector<cases::Tool>& tools = scene.definition.tools;
+  const auto paths = read_tool_recording(text, path, dynamics.step, dynamics.end, tools.size());
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    const Vector3d begin = tools[i].place(0);
+    tools[i].path = paths[i];
+    if (paths[i].empty()) tools[i].path.push_back({0, begin.x(), begin.y(), begin.z()});
+  }
+  return scene;
+}
+
 } // namespace
 
 cases::Scene with_recording(cases::Scene scene, const std::string& text, const std::string& path) {
@@ -35,6 +53,7 @@ cases::Scene with_recording(cases::Scene scene, const std::string& text, const s
                         "a history in [[load]] pulls at nodes");
   const auto& dynamics = scene.definition.dynamics;
   if (!dynamics) throw cases::InputError(scene.definition.file + ": has no [dynamics] to replay pulls in");
+  if (is_of_tools(text)) return with_tools_led(std::move(scene), text, path);
   const std::vector<Hold> holds = read_recording(text, path, dynamics->step, dynamics->end);
   const mechanics::EmbeddedSurface surface = embedded_surface(scene);
   // A load of the case on a plane of symmetry is the whole body's; a pull is of the part that was pulled.

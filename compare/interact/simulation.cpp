@@ -115,6 +115,24 @@ DrawnSurface drawn_surface(const mechanics::EmbeddedSurface& surface, const std:
   return drawn;
 }
 
+/// What the page draws of a tool.
+nlohmann::ordered_json described(const cases::Tool& tool) {
+  nlohmann::ordered_json all{{"name", tool.name}};
+  std::visit(
+      [&](const auto& shape) {
+        using Shape = std::decay_t<decltype(shape)>;
+        using namespace cases::tools;
+        const auto numbers = [](const Vector3d& of) { return std::vector<double>(of.begin(), of.end()); };
+        all["shape"] = Shape::name;
+        if constexpr (!std::is_same_v<Shape, Plane>) all["radius"] = shape.radius;
+        if constexpr (std::is_same_v<Shape, Plane>) all["axis"] = numbers(shape.normal);
+        if constexpr (std::is_same_v<Shape, Cylinder> || std::is_same_v<Shape, Punch>)
+          all["axis"] = numbers(shape.axis);
+      },
+      tool.shape);
+  return all;
+}
+
 } // namespace
 
 std::optional<PageMessage> message_from(const std::string& text) {
@@ -131,6 +149,9 @@ std::optional<PageMessage> message_from(const std::string& text) {
   if (name == "restart" && n_keys == 1) return Restart{};
   if (name == "drag" && n_keys == 2)
     if (const auto by = vector_from(message, "by")) return Drag{*by};
+  if (name == "grab_tool" && n_keys == 2)
+    if (const auto tool = message.find("tool"); tool != message.end() && tool->is_number_unsigned())
+      return GrabTool{tool->get<std::size_t>()};
   if (name == "grab" && n_keys == 3) {
     const auto origin = vector_from(message, "origin"), direction = vector_from(message, "direction");
     if (origin && direction && direction->norm() > 0) return Grab{{*origin, *direction}};
@@ -145,17 +166,21 @@ Simulation::Simulation(const cases::Scene& scene, const PullSettings& settings,
   DrawnSurface drawn = drawn_surface(surface, body_.spheres().vertices, scene_.mesh);
   geometry_ = std::move(drawn.bytes);
   carrying_ = std::move(drawn.nodes);
-  description_ = nlohmann::ordered_json{{"name", scene_.definition.name},
-                                        {"description", scene_.definition.description},
-                                        {"masses", scene_.mesh.nodes.size()},
-                                        {"cells", scene_.mesh.cells.size()},
-                                        {"unknowns", body_.n_unknowns()},
-                                        {"method", body_.method_text()},
-                                        {"step_s", scene_.definition.dynamics->step},
-                                        {"triangles", surface.rest.triangles.size()},
-                                        {"spheres", body_.spheres().vertices.size()},
-                                        {"radius", body_.spheres().radius}}
-                     .dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+  auto tools = nlohmann::ordered_json::array();
+  for (const cases::Tool& tool : scene_.definition.tools) tools.push_back(described(tool));
+  description_ = nlohmann::ordered_json{
+      {"name", scene_.definition.name},
+      {"description", scene_.definition.description},
+      {"masses", scene_.mesh.nodes.size()},
+      {"cells", scene_.mesh.cells.size()},
+      {"unknowns", body_.n_unknowns()},
+      {"method", body_.method_text()},
+      {"step_s", scene_.definition.dynamics->step},
+      {"triangles", surface.rest.triangles.size()},
+      {"spheres", body_.spheres().vertices.size()},
+      {"radius", body_.spheres().radius},
+      {"tools",
+       tools}}.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -243,6 +268,7 @@ void Simulation::run() {
 void Simulation::take(const std::vector<PageMessage>& messages) {
   for (const PageMessage& message : messages) {
     if (const auto* grab = std::get_if<Grab>(&message)) body_.grab(grab->ray);
+    if (const auto* grab = std::get_if<GrabTool>(&message)) body_.grab_tool(grab->tool);
     if (const auto* drag = std::get_if<Drag>(&message)) body_.drag(drag->by);
     if (std::holds_alternative<Release>(message)) body_.release();
     if (std::holds_alternative<Restart>(message)) body_.restart();
@@ -250,6 +276,8 @@ void Simulation::take(const std::vector<PageMessage>& messages) {
 }
 
 void Simulation::step() {
+  const auto held_tool = body_.held_tool();
+  const Vector3d tool_before = held_tool ? body_.tools()[*held_tool].at : Vector3d::Zero();
   const auto before = SteadyClock::now();
   body_.step();
   const double taken = milliseconds(SteadyClock::now() - before);
@@ -257,12 +285,31 @@ void Simulation::step() {
   if (step_ms_.size() > most_times) step_ms_.pop_front();
   summary_.largest_ms = std::max(summary_.largest_ms, taken);
   ++summary_.n_steps;
-  if (body_.n_steps() <= last_step_) recording_.clear(); // holds the motion since its last start
+  if (body_.n_steps() <= last_step_) { // recordings hold the motion since its last start
+    recording_.clear();
+    tool_recording_.clear();
+  }
   last_step_ = body_.n_steps();
+  if (held_tool && last_step_ > 0) record_tool(*held_tool, tool_before);
+  double tool_force = 0;
+  for (const auto& [at, contact] : body_.tools()) tool_force = std::max(tool_force, contact.force.norm());
+  summary_.n_pressed += tool_force > 0;
+  summary_.largest_tool_force = std::max(summary_.largest_tool_force, tool_force);
   if (const auto held = body_.held(); held && !body_.force().isZero(0)) {
     ++summary_.n_pulled;
     if (recording_.size() < most_recorded) recording_.push_back({body_.n_steps(), *held, body_.force()});
   }
+}
+
+/// Between a tool's rows it goes straight: where it begins to move it has one for the step before.
+void Simulation::record_tool(std::size_t tool, const Vector3d& before) {
+  const Vector3d& now = body_.tools()[tool].at;
+  if (now == before || tool_recording_.size() + 2 > most_recorded) return;
+  const auto is_of_tool = [&](const RecordedTool& row) { return row.tool == tool; };
+  const auto last = std::find_if(tool_recording_.rbegin(), tool_recording_.rend(), is_of_tool);
+  if (last == tool_recording_.rend() || last->step < last_step_ - 1)
+    tool_recording_.push_back({last_step_ - 1, tool, before});
+  tool_recording_.push_back({last_step_, tool, now});
 }
 
 std::shared_ptr<const std::string> Simulation::frame() {
@@ -284,10 +331,14 @@ std::shared_ptr<const std::string> Simulation::frame() {
                                                   static_cast<double>(n_drags_taken_),
                                                   body_.residual(),
                                                   static_cast<double>(carrying_.size())};
-  bytes->reserve(8 * frame_numbers + 12 * carrying_.size());
+  bytes->reserve(8 * frame_numbers + 12 * carrying_.size() + 24 * body_.tools().size());
   for (const double number : numbers) append<double>(*bytes, number);
   const MovedBody::Points& displacement = body_.displacement();
   for (const int node : carrying_) append(*bytes, displacement[cases::index(node)]);
+  for (const auto& [at, contact] : body_.tools()) {
+    append(*bytes, at);
+    append(*bytes, contact.force);
+  }
   ++summary_.n_frames;
   return bytes;
 }
@@ -301,6 +352,13 @@ void Simulation::write_recording(std::ostream& out) const {
     csv.row(pull.step, time, place.x(), place.y(), place.z(), body_.spheres().radius, pull.force.x(),
             pull.force.y(), pull.force.z());
   }
+}
+
+void Simulation::write_tool_recording(std::ostream& out) const {
+  CsvWriter csv(out, 17); // doubles come back as they were
+  out << tool_recording_header << '\n';
+  for (const auto& [step, tool, at] : tool_recording_)
+    csv.row(step, static_cast<double>(step) * scene_.definition.dynamics->step, tool, at.x(), at.y(), at.z());
 }
 
 SimulationSummary Simulation::summary() const {

@@ -19,19 +19,22 @@ struct AskFrame {}; ///< the page has drawn the last frame and takes another
 struct Grab {
   mechanics::Ray ray;
 };
+struct GrabTool {
+  std::size_t tool; ///< its number in the case
+};
 struct Drag {
-  Eigen::Vector3d by; ///< mm, from where the place was when it was grabbed
+  Eigen::Vector3d by; ///< mm, from where the place or the tool was when it was grabbed
 };
 struct Release {};
 struct Restart {};
-using PageMessage = std::variant<AskFrame, Grab, Drag, Release, Restart>;
+using PageMessage = std::variant<AskFrame, Grab, GrabTool, Drag, Release, Restart>;
 
 /// The longest text that is a message, bytes.
 constexpr std::size_t longest_message = 512;
 
-/// The message in {"type": "frame" | "grab" | "drag" | "release" | "restart"}; a grab has "origin" and
-/// "direction", a drag has "by", each of three finite numbers up to 1e9, the direction not 0; and there are
-/// no other keys.
+/// The message in {"type": "frame" | "grab" | "grab_tool" | "drag" | "release" | "restart"}; a grab has
+/// "origin" and "direction", a drag has "by", each of three finite numbers up to 1e9, the direction not 0,
+/// and a grab_tool has "tool", a whole number from 0; and there are no other keys.
 /// @return nothing where the text is anything else
 std::optional<PageMessage> message_from(const std::string& text);
 
@@ -42,9 +45,18 @@ struct RecordedPull {
   Eigen::Vector3d force; ///< N
 };
 
+/// Where a tool was at the end of a step in which a hand had it, or before it.
+struct RecordedTool {
+  long step;
+  std::size_t tool;
+  Eigen::Vector3d at; ///< mm
+};
+
 struct SimulationSummary {
   std::string method;                           ///< PulledBody::method_text()
   long n_steps = 0, n_frames = 0, n_pulled = 0; ///< steps in all, frames made, steps with a pull
+  long n_pressed = 0;                           ///< steps at whose end a tool presses
+  double largest_tool_force = 0;                ///< N
   StepTroubles troubles;
   long n_inverted_frames = 0;                       ///< frames that showed inverted cells
   double median_ms = 0, p99_ms = 0, largest_ms = 0; ///< wall clock of the last 100,000 steps
@@ -71,7 +83,8 @@ class Simulation {
   void stop(); ///< joins the thread
 
   /// {"name", "description", "masses", "cells", "unknowns", "method", "step_s", "triangles", "spheres",
-  /// "radius"}
+  /// "radius", "tools": [{"name", "shape", "radius", "axis"}]}; an axis is a cylinder's or a punch's, or a
+  /// plane's normal
   const std::string& description() const { return description_; }
   /// What the page draws: see DrawnSurface in simulation.cpp, whose nodes are in the order of a frame.
   const std::string& geometry() const { return geometry_; }
@@ -79,9 +92,14 @@ class Simulation {
   /// What has been, after stop(). A recording is of the motion since its last start.
   SimulationSummary summary() const;
   bool has_recording() const { return !recording_.empty(); }
-  bool is_recording_full() const { return recording_.size() == most_recorded; }
+  bool is_recording_full() const {
+    return std::max(recording_.size(), tool_recording_.size()) >= most_recorded;
+  }
   /// Writes what read_recording() reads.
   void write_recording(std::ostream& out) const;
+  bool has_tool_recording() const { return !tool_recording_.empty(); }
+  /// Writes what read_tool_recording() reads.
+  void write_tool_recording(std::ostream& out) const;
 
   static constexpr std::size_t frame_numbers = 12; ///< float64 at the beginning of a frame
 
@@ -104,12 +122,16 @@ class Simulation {
   std::deque<double> step_ms_; ///< the last steps
   SimulationSummary summary_;
   std::vector<RecordedPull> recording_;
+  std::vector<RecordedTool> tool_recording_;
   double steps_per_second_ = 0;
   long last_step_ = 0; ///< step of the motion since its last start
 
   void run();
   void take(const std::vector<PageMessage>& messages);
   void step();
+  void record_tool(std::size_t tool, const Eigen::Vector3d& before);
+  /// Numbers, the displacement of the carrying nodes (3 float32 each), and of each tool where it is (mm) and
+  /// its force (N), 6 float32.
   std::shared_ptr<const std::string> frame();
 };
 

@@ -29,7 +29,7 @@ function is_drawn_by_processor() {
 }
 
 class View {
-  constructor(fine, coarse) {
+  constructor(fine, coarse, tools) {
     const antialias = (window.devicePixelRatio || 1) < 2 && !is_drawn_by_processor();
     this.renderer = new THREE.WebGLRenderer({canvas, antialias, alpha: false});
     this.drawn = this.fine = fine;
@@ -57,6 +57,11 @@ class View {
     const ball = new THREE.Box3().setFromArray(fine.positions).getBoundingSphere(new THREE.Sphere());
     this.size = ball.radius || 1;
     this.handle.scale.setScalar(0.015 * this.size);
+    this.tools = tools.map((tool) => tool_mesh(tool, this.size));
+    if (tools.length > 0) {
+      this.scene.add(...this.tools, new THREE.AmbientLight(0xffffff, 0.6));
+      this.camera.add(new THREE.DirectionalLight(0xffffff, 0.6));
+    }
     this.camera.position.copy(ball.center)
         .addScaledVector(new THREE.Vector3(0.5, -0.9, 0.45).normalize(), 4.2 * this.size);
     Object.assign(this.camera, {near: 0.01 * this.size, far: 100 * this.size});
@@ -79,7 +84,8 @@ class View {
   // @return whether it was drawn
   show(frame) {
     const now = performance.now(), displacement = frame.displacement;
-    const is_changed = this.place_pull(frame) || this.is_turned || this.has_moved(displacement) ||
+    const are_placed = [this.place_pull(frame), this.place_tools(frame)];
+    const is_changed = are_placed.includes(true) || this.is_turned || this.has_moved(displacement) ||
         this.drawn_size !== this.size_of_picture();
     if (is_changed) this.changed_at = now;
     const rests = now - this.changed_at > 400;
@@ -103,6 +109,15 @@ class View {
     for (let i = 0; i < displacement.length; ++i)
       if (Math.abs(displacement[i] - shown[i]) > least) return true;
     return false;
+  }
+  place_tools(frame) {
+    let is_changed = false;
+    this.tools.forEach((mesh, i) => {
+      const place = new THREE.Vector3().fromArray(frame.tools, 6 * i);
+      is_changed = is_changed || !place.equals(mesh.position);
+      mesh.position.copy(place);
+    });
+    return is_changed;
   }
   place_pull(frame) {
     const is_held = frame.held >= 0 && pull.plane !== null;
@@ -156,6 +171,7 @@ class View {
       }
     };
     hold(surface.positions);
+    if (this.tools.length > 0) is_behind = true; // they may be anywhere: the whole stage
     if (this.spring.visible) hold(this.spring.geometry.attributes.position.array);
     const with_room = (part) => { // widens by 8 pixels and a part of the body's size
       const room = 8 + part * Math.max(upper[0] - lower[0], upper[1] - lower[1]);
