@@ -161,19 +161,22 @@ cases::Solution solution_of(const ReadMessage& message, const Json& mesh_solved,
 
 std::optional<std::string> reason_without_getfem(const cases::Scene& scene) {
   const cases::Case& definition = scene.definition;
-  if (!cases::has_cells(definition.body)) return "a network has no cells";
-  if (definition.dynamics) return "its solves are static";
-  if (!definition.tools.empty()) return "its input has no tools";
-  if (!cases::is_isotropic(definition.material)) return "its input has isotropic materials";
-  if (!scene.masses.empty()) return "its input has no added masses";
-  if (std::any_of(scene.loads.begin(), scene.loads.end(),
-                  [](const auto& applied) { return applied.load.on() == cases::loads::On::nodes; }))
-    return "its loads are tractions, torques and gravity, whose solutions have a limit";
-  if (std::any_of(scene.moved.begin(), scene.moved.end(),
-                  [](const auto& moved) { return moved.motion.scaled.has_value(); }))
-    return "its input has no motions that fade out";
-  if (!definition.region_materials.empty() && needs_pressure(scene))
-    return "its pressure is continuous, and jumps between materials";
+  if (!cases::has_cells(definition.body)) return "[body] is a network, which has no cells for its elements";
+  if (definition.dynamics) return "the case has [dynamics], and its solves are static";
+  if (!definition.tools.empty())
+    return fmt::format("[[tool]] \"{}\" presses on the body, and its input has no contact",
+                       definition.tools.front().name);
+  if (!cases::is_isotropic(definition.material))
+    return "[material] has a fibre, and its input has isotropic materials";
+  if (!scene.masses.empty()) return "the case has [[mass]], and its input has the weight of cells alone";
+  if (cases::first_joined(definition))
+    return "[[body.removed]] joins a cut, and its input has no joints between nodes";
+  for (std::size_t i = 0; i < scene.loads.size(); ++i)
+    if (scene.loads[i].load.on() == cases::loads::On::nodes)
+      return fmt::format("load[{}] is a force on nodes, and its input has tractions, torques and gravity", i);
+  for (std::size_t i = 0; i < scene.moved.size(); ++i)
+    if (scene.moved[i].motion.scaled)
+      return fmt::format("moved[{}] has scaled_displacement, and its input has no motions that fade out", i);
   return std::nullopt;
 }
 
@@ -216,7 +219,8 @@ RefinedMeshes solve_with_getfem(const cases::Scene& scene, int most_meshes) {
       call_program({{python, "-I", cases::data_folder("peers") + "/getfem_peer.py", "scene", "answer"},
                     scratch.path(),
                     {"OMP_NUM_THREADS=1", "OPENBLAS_NUM_THREADS=1"}});
-  if (!end || end->status == no_getfem) return {{}, {}, "GetFEM (python3-getfem) is not installed"};
+  if (!end || end->status == no_getfem)
+    return {{}, {}, "it is not installed; apt-get install python3-getfem brings it"};
   if (end->status != 0)
     throw cases::SolveError(
         "GetFEM stopped: " +

@@ -5,8 +5,8 @@ Usage: getfem_peer.py SCENE ANSWER
 SCENE is a line of JSON that lists the arrays after it, little-endian doubles; mm, N, MPa. ANSWER has the same form.
 compare/peers/getfem.cpp writes the one and reads the other.
 
-Displacements are Q2 on hexahedra and P2 on tetrahedra. Where the pressure matters it is a field of its own, continuous
-and of degree 1 (Taylor and Hood).
+Displacements are Q2 on hexahedra and P2 on tetrahedra. Where the pressure matters it is a field of its own, of degree 1
+and continuous (Taylor and Hood) but for jumps between materials.
 """
 
 import json
@@ -85,7 +85,7 @@ def tetrahedron():
     children = [[at[tuple(map(int, node))] for node in child.split()] for child in of_vertices + around_diagonal]
     vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
     powers = [(i, j, k) for k in range(3) for j in range(3) for i in range(3) if i + j + k <= 2]
-    return Lattice(vertices, powers, parents, children, "PK", "IM_TETRAHEDRON(6)")
+    return Lattice(vertices, powers, parents, children, "PK", "IM_TETRAHEDRON(5)")
 
 
 class Mesh:
@@ -126,10 +126,13 @@ class Mesh:
         return Mesh(np.array(self.all_nodes), cells, parts, self.lattice)
 
 
-def law(name, material, mixed):
-    """Returns the weak form of the internal forces in GetFEM's language: P : Grad_Test_u, and the pressure's equation.
+def law(name, material, unknown):
+    """Returns the weak form of the internal forces in GetFEM's language: P : Grad_Test_u, and the equation of the pressure.
 
-    The law is linear in the small strain, Saint Venant and Kirchhoff's, Hencky's in the logarithmic strain, or Ogden's.
+    `unknown` names the pressure's field; without one the pressure is the law's at every point.
+
+    The law is linear in the small strain, Saint Venant and Kirchhoff's, linear between Cauchy's stress and the logarithmic
+    strain, or Ogden's.
     """
     mu, kappa = material["mu"], material["kappa"]
     f = DEFORMATION
@@ -144,8 +147,8 @@ def law(name, material, mixed):
         modulus, volume, scale = kappa - 2 * mu / 3, f"Trace({strain})", "1"
         stress, left, right = f"{2 * mu}*{strain}", f"{f}*", ""
     elif name == "log_strain":
-        modulus, volume, scale = kappa, f"log({j})", "1"
-        stress, left, right = f"{mu}*Deviator(Logm({b}))", "", f"*Inv({f})'"
+        modulus, volume, scale = kappa, f"log({j})", j  # Cauchy's stress is linear in the strain
+        stress, left, right = f"{j}*{mu}*Deviator(Logm({b}))", "", f"*Inv({f})'"
     else:
         modulus, volume, scale = kappa, f"(({j}-1/{j})/2)", j
         powers = {2: b, -2: f"Inv({b})", 4: f"({b}*{b})", -4: f"(Inv({b})*Inv({b}))"}
@@ -154,9 +157,9 @@ def law(name, material, mixed):
             f"({2 * mu_i / alpha})*pow({j},{-alpha / 3})*Deviator({powers.get(alpha) or f'Expm({alpha / 2}*Logm({b}))'})"
             for mu_i, alpha in material["terms"]
         )
-    pressure = "p" if mixed else f"({modulus})*{volume}"
+    pressure = unknown or f"({modulus})*{volume}"
     form = f"({left}({stress}+{scale}*{pressure}*Id(3)){right}):Grad_Test_u"
-    return form + (f"+(p/({modulus})-{volume})*Test_p" if mixed else "")
+    return form + (f"+({unknown}/({modulus})-{volume})*Test_{unknown}" if unknown else "")
 
 
 def turned(motion, nodes):
@@ -176,7 +179,7 @@ def turned(motion, nodes):
 class Body:
     """GetFEM's model of a scene on one mesh."""
 
-    def __init__(self, header, arrays, mesh, level):
+    def __init__(self, header, material, mesh):
         self.header, self.mesh = header, mesh
         lattice = mesh.lattice
         self.gf_mesh = gf.Mesh("empty", 3)
@@ -191,7 +194,6 @@ class Body:
         self.integration = gf.MeshIm(self.gf_mesh, lattice.integration)
         self.find_dofs()
         self.find_constrained()
-        material = np.repeat(arrays["material_of_cell"][:, 0].astype(int), 8**level)
         self.make_model(material)
 
     def find_dofs(self):
@@ -224,21 +226,24 @@ class Body:
 
     def make_model(self, material):
         header = self.header
-        self.mixed = header["mixed"]
         self.model = gf.Model("real")
         self.model.add_fem_variable("u", self.u)
-        if self.mixed:
-            pressure = gf.MeshFem(self.gf_mesh, 1)
-            pressure.set_fem(self.mesh.lattice.pressure)
-            self.model.add_fem_variable("p", pressure)
+        pressures = [f"p{number}" if header["mixed"] else None for number in range(1, 1 + len(header["materials"]))]
+        cells_of = [np.flatnonzero(material == number) for number in range(len(pressures))]
+        for pressure, cells in zip(pressures, cells_of):
+            if pressure and len(cells) > 0:
+                field = gf.MeshFem(self.gf_mesh, 1)
+                field.set_fem(self.mesh.lattice.pressure, cells)
+                self.model.add_fem_variable(pressure, field)
         first = self.model.interval_of_variable("u")[0]  # a model's variables are in alphabetical order
         self.constrained += first
         self.values = [(dofs + first, axis, at) for dofs, axis, at in self.values]
         self.model.add_initialized_data("factor", [1.0])
-        for number, one in enumerate(header["materials"], 1):
-            cells = np.flatnonzero(material == number - 1)
+        for number, (one, pressure, cells) in enumerate(zip(header["materials"], pressures, cells_of), 1):
+            if len(cells) == 0:
+                continue  # other materials have taken all of its cells
             self.gf_mesh.set_region(number, np.array([cells, np.full(len(cells), -1)]))
-            self.model.add_nonlinear_term(self.integration, law(header["law"], one, self.mixed), number)
+            self.model.add_nonlinear_term(self.integration, law(header["law"], one, pressure), number)
             weight = ",".join(str(one["density"] * a) for a in header["acceleration"])
             self.add_load(f"[{weight}]", number)
         faces = self.outer_faces()
@@ -378,11 +383,13 @@ def main():
     n_nodes, n_cells = len(mesh.nodes), len(mesh.cells)
     meshes, found, reason, failed, coarse = [], {}, "", False, None
     for level in range(header["meshes"]):
-        unknowns = 3 * len(mesh.all_nodes) + (len(mesh.nodes) if header["mixed"] else 0)
+        material = np.repeat(arrays["material_of_cell"][:, 0].astype(int), 8**level)
+        pressures = [len(np.unique(mesh.cells[material == one])) for one in np.unique(material)]
+        unknowns = 3 * len(mesh.all_nodes) + (sum(pressures) if header["mixed"] else 0)
         if unknowns > MOST_UNKNOWNS:
             reason = f"it has {unknowns} unknowns, of which at most {MOST_UNKNOWNS} are solved here"
             break
-        body = Body(header, arrays, mesh, level)
+        body = Body(header, material, mesh)
         reached = body.solve(coarse and body.interpolated(coarse))
         if reached < 1:
             reason, failed = f"Newton's method stops at {reached:.4g} of the load, mesh {level}", True
