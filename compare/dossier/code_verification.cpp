@@ -113,7 +113,7 @@ std::vector<ProjectTest> project_tests(const std::string& markdown) {
 }
 
 CodeVerification verify_code(const std::vector<std::string>& files, const AnswerQuestions& answer) {
-  constexpr int most_meshes = 3; // of GetFEM, which takes seconds for the next one
+  constexpr int most_meshes = 3; // GetFEM takes seconds for the next one
   CodeVerification code;
   std::vector<Question> questions = read_questions(files, {}, {});
   questions.erase(std::remove_if(questions.begin(), questions.end(),

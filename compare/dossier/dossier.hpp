@@ -14,13 +14,13 @@ namespace springproof::compare {
 /// What only people know; empty: they did not say.
 struct DossierContext {
   std::string question;    ///< that the simulation is to answer
-  std::string role;        ///< of its answer in the decision, beside other evidence
-  std::string consequence; ///< of a wrong answer
+  std::string role;        ///< its answer's, in the decision, beside other evidence
+  std::string consequence; ///< what a wrong answer does
 };
 
 struct DossierRequest {
   FitCases cases; ///< none held out
-  int meshes = 0; ///< of the finite elements' limits; 0: as the cases ask
+  int meshes = 0; ///< for the finite elements' limits; 0: as the cases ask
   DossierContext context;
   std::string measured;               ///< file of data, as read_fit_data() has them; empty: none
   std::vector<std::string> uncertain; ///< KEY=SIGMA: a key of the cases and its standard uncertainty
@@ -68,7 +68,7 @@ struct ModelAgainstDatum {
 
 struct ValidatedDatum {
   std::string case_name;
-  std::vector<std::string> settings; ///< of the row alone
+  std::vector<std::string> settings; ///< the row's alone
   std::string measure, unit;
   int line = 0;
   double value = 0;
@@ -115,7 +115,7 @@ struct CodeVerification {
   std::vector<Comparison> cases; ///< CalculiX has answered those that it has
   std::vector<ObservedOrder> orders;
   std::vector<std::pair<std::string, PeerStudy>> second_codes; ///< with the case's name
-  std::vector<ProjectTest> tests;                              ///< of the project; not run here
+  std::vector<ProjectTest> tests;                              ///< the project's; not run here
 };
 
 /// Solves the program's own cases, those of them that expect what is exact, a limit or another program's.
@@ -123,7 +123,7 @@ CodeVerification verify_code(const std::vector<std::string>& files, const Answer
 
 struct Dossier {
   DossierContext context;
-  std::vector<std::string> settings; ///< of the command
+  std::vector<std::string> settings; ///< the command's
   CodeVerification code;
   std::vector<StudiedCase> cases; ///< those that were given
   Validation validation;

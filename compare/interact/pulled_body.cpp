@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int most_sizes = 100;       ///< what moves further has no picture
-constexpr double largest_step = 0.02; ///< of a tool, of the body's size
+constexpr double largest_step = 0.02; ///< a tool's, in the body's sizes
 
 } // namespace
 

@@ -10,7 +10,7 @@ namespace springproof::compare {
 struct SteppedBody {
   Variant variant;
   cases::Scene scene;
-  msm::SpringBody springs{};                      ///< of finite elements none
+  msm::SpringBody springs{};                      ///< none where elements are stepped
   std::optional<double> in_equilibrium_percent{}; ///< error of the springs' field; of a body at rest
 };
 

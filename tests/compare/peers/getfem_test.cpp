@@ -175,8 +175,8 @@ TEST_CASE("GetFEM's elements have the uniform strain of each law, with and witho
 
 TEST_CASE("GetFEM's pressure jumps between two layers that keep their volume, by either law",
           "[peer][long]") {
-  // Between smooth walls all around, the layers lie in a row: each has the stress of the load, and a pressure
-  // of its own.
+  // Between smooth walls all around, the layers lie in a row: each has the load's stress, and its own
+  // pressure.
   const auto layers = [](const std::string& formulation) {
     return block({"body.cells=[1,1,2]", "fem.formulation=" + formulation, "material.youngs_modulus=0.3",
                   "material.poissons_ratio=0.49",
