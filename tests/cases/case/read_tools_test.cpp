@@ -20,7 +20,9 @@ std::string pressed(const std::string& tools) {
 const std::string ball = "[[tool]]\nname = 'ball'\nshape = 'sphere'\ncentre = [5, 5, 14]\nradius = 4\n"
                          "displacement = [0, 0, -1]\n";
 
-const std::string from_rest = replaced(dynamic_case, "start = 'equilibrium'", "start = 'rest'");
+std::string from_rest() {
+  return replaced(dynamic_case, "start = 'equilibrium'", "start = 'rest'");
+}
 
 } // namespace
 
@@ -80,7 +82,7 @@ TEST_CASE("a mistake in a tool is refused where it stands, with what is allowed"
 
 TEST_CASE("a tool of a motion has a history or a path, and takes the place of a load") {
   const auto moved = [&](const std::string& tool) {
-    return replaced(from_rest, "[[load]]", tool + "[[load]]");
+    return replaced(from_rest(), "[[load]]", tool + "[[load]]");
   };
   const Case by_history = read_text(moved(ball + "history = { ramp = [0.01, 0.03] }\n"));
   REQUIRE(by_history.tools.size() == 1);
@@ -97,7 +99,8 @@ TEST_CASE("a tool of a motion has a history or a path, and takes the place of a 
 }
 
 TEST_CASE("a mistake in how a tool moves is refused where it stands") {
-  const std::string good = replaced(from_rest, "[[load]]", ball + "history = { ramp = [0, 0.1] }\n[[load]]");
+  const std::string good =
+      replaced(from_rest(), "[[load]]", ball + "history = { ramp = [0, 0.1] }\n[[load]]");
   const auto line_of = [&](const std::string& text) {
     return 1 + static_cast<int>(std::count(good.begin(), good.begin() + long(good.find(text)), '\n'));
   };
@@ -114,7 +117,7 @@ TEST_CASE("a mistake in how a tool moves is refused where it stands") {
   refused("history = { ramp = [0, 0.1] }", "path = [[0, 1, 1, 1]]", line_of("centre"), "tool[0].centre",
           {"left out beside path"});
   check_case_refused(replaced(good_case, "[[load]]", ball + "history = { ramp = [0, 1] }\n[[load]]"),
-                     6 + static_cast<int>(std::count(
+                     7 + static_cast<int>(std::count(
                              good_case.begin(), good_case.begin() + long(good_case.find("[[load]]")), '\n')),
                      "tool[0].history", {"a static case has no time"});
 }

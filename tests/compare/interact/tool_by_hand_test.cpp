@@ -69,7 +69,7 @@ Vector3d way(int step) {
 
 } // namespace
 
-TEST_CASE("a tool that a hand moves presses the springs, and both models replay it", "[verification]") {
+TEST_CASE("a tool that a hand moves presses the springs, and both models replay it", "[verification][long]") {
   for (const std::string cells : {"[6, 6, 4]", "[12, 12, 8]"}) {
     CAPTURE(cells);
     const cases::Scene scene = block_and_ball(cells);

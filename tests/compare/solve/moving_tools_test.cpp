@@ -129,7 +129,7 @@ TEST_CASE("what a tool gives a free body is its momentum", "[verification]") {
 }
 
 TEST_CASE("the force of a ball that goes in and out at 60 Hz is smooth, and it stays out of the body",
-          "[verification]") {
+          "[verification][long]") {
   const std::string ball = "shape = 'sphere'\ncentre = [0, 0, 16]\nradius = 10\n"
                            "displacement = [0, 0, -1.5]\n" +
                            in_and_out(1);
