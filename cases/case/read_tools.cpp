@@ -139,6 +139,9 @@ void check_tools(const Case& definition) {
     refuse_tools(definition, "another solver than \"newton\"", "it knows no contact");
   if (definition.msm.real_time || definition.fem.real_time)
     refuse_tools(definition, "real_time", "its steps know no contact");
+  if (definition.msm.iterations_per_step)
+    refuse_tools(definition, "msm.iterations_per_step",
+                 "a step that ends before its nodes have settled against a tool has no force of it");
   if (!has_cells(definition.body))
     refuse_tools(definition, "a network, which has no surface", "give the body cells");
 }

@@ -111,6 +111,8 @@ TEST_CASE("a mistake in how a tool moves is refused where it stands") {
   refused("displacement = [0, 0, -1]\n", "", at_tool, "tool[0]", {"history must be left out"});
   refused("scheme = 'newmark'", "scheme = 'generalized_alpha'\nrho_infinity = 0.5", line_of("[dynamics]"),
           "dynamics", {"rho_infinity is 0.5, must be 0 beside [[tool]]"});
+  refused("mass = 'uniform'", "mass = 'uniform'\niterations_per_step = 10", at_tool, "tool[0]",
+          {"left out beside msm.iterations_per_step"});
   refused("start = 'rest'", "start = 'equilibrium'", at_tool, "tool[0]", {"starts at rest"});
   refused("history = { ramp = [0, 0.1] }", "steps = 2", at_history, "tool[0].steps",
           {"left out beside [dynamics]"});
