@@ -67,7 +67,8 @@ function(springproof_tests folder)
     endforeach()
   endforeach()
   foreach(tier long release)
-    if(NOT SPRINGPROOF_SANITIZE)
+    springproof_has_tag(${tier} "${ARG_SOURCES}" has_tier)
+    if(has_tier AND NOT SPRINGPROOF_SANITIZE)
       catch_discover_tests(${target} TEST_SPEC "[${tier}]" TEST_PREFIX "${folder}/" TEST_LIST ${target}_${tier} EXTRA_ARGS -w NoTests
         WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
         PROPERTIES LABELS ${tier} TIMEOUT ${limit_${tier}} SKIP_REGULAR_EXPRESSION "nothing was compared" ENVIRONMENT ${alone})
@@ -75,7 +76,18 @@ function(springproof_tests folder)
   endforeach()
 endfunction()
 
-# Kinds of a source's test cases that are not [long]. Test cases are found in the text, and again whenever the source changes.
+# Whether a test case of the sources has the tag.
+function(springproof_has_tag tag sources result)
+  set(${result} OFF PARENT_SCOPE)
+  foreach(source IN LISTS sources)
+    file(STRINGS ${source} lines REGEX "\\[${tag}\\]")
+    if(lines)
+      set(${result} ON PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
+
+# Kinds of a source's test cases that are not [long] or [release]. Test cases are found in the text, and again whenever the source changes.
 function(springproof_kinds_of source result)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
   file(READ ${source} text)

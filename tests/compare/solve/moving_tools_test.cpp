@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-const std::string of_tool =
+const std::string of_moving_tool =
     "[[measure]]\nname = 'force'\nkind = 'tool_force'\ntool = 'tool'\ncomponent = 'z'\n"
     "[[measure]]\nname = 'depth'\nkind = 'penetration'\ntool = 'tool'\n"
     "[[measure]]\nname = 'torque'\nkind = 'tool_torque'\ntool = 'tool'\ncomponent = 'y'\n"
@@ -31,7 +31,7 @@ std::string block(const std::string& size, const std::string& cells, const std::
                      "density = 1000\n{}{}[[tool]]\nname = 'tool'\n{}"
                      "[dynamics]\n{}[fem]\nformulation = 'log_strain'\nelement = 'q1'\naccuracy = 'none'\n{}",
                      size, cells, dynamics.find("damping") == 0 ? "mass_damping = 20\n" : "", supports, tool,
-                     dynamics.find("damping") == 0 ? dynamics.substr(8) : dynamics, of_tool);
+                     dynamics.find("damping") == 0 ? dynamics.substr(8) : dynamics, of_moving_tool);
 }
 
 const std::string rollers = "[[symmetry]]\nplane = 'x-'\n[[symmetry]]\nplane = 'y-'\n"
