@@ -165,5 +165,6 @@ TEST_CASE("what knows no tools refuses a case with one, or says why it is skippe
   CHECK_THROWS_WITH(msm::Model(scene, msm::SpringBody{}, {msm::Path::multigrid}),
                     Contains("a case without tools"));
   CHECK(reason_without_calculix(definition) == "its input has no tools");
-  CHECK(reason_without_getfem(scene) == "its input has no tools");
+  CHECK(reason_without_getfem(scene) ==
+        "[[tool]] \"tool\" presses on the body, and its input has no contact");
 }
