@@ -115,7 +115,7 @@ void check_compliances(const EngineDesign& inverse, const std::string& volumes, 
 
 } // namespace
 
-TEST_CASE("compliances of springs and volumes store their energy; a client that is not there has failed",
+TEST_CASE("compliances store the energy of springs and volumes, and a client that is not there has failed",
           "[verification][long]") {
   const EngineDesign jolt = compare::design_for_engine(with_client(request_for(Engine::jolt), {"/nowhere"}));
   check_compliances(jolt, "compliance of 6 V of an inscribed tetrahedron, two a cell", 6);
