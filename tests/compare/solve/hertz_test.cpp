@@ -70,7 +70,7 @@ TEST_CASE("a sphere on a half space meets Hertz's force at the finite elements' 
 }
 
 TEST_CASE("springs of cubes, eight to a contact radius, have the force of finite elements to 5 %",
-          "[verification][long]") {
+          "[verification][release]") {
   // A block of three contact radii is no half space: both models have the same one.
   const Grading cubes{1. / 8, 24, 0, 1};
   cases::Case definition = pressed_by_sphere(cases::Element::q1_bbar);
