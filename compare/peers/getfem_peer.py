@@ -129,10 +129,8 @@ class Mesh:
 def law(name, material, unknown):
     """Returns the weak form of the internal forces in GetFEM's language: P : Grad_Test_u, and the equation of the pressure.
 
-    `unknown` names the pressure's field; without one the pressure is the law's at every point.
-
     The law is linear in the small strain, Saint Venant and Kirchhoff's, linear between Cauchy's stress and the logarithmic
-    strain, or Ogden's.
+    strain, or Ogden's. `unknown` names the pressure's field; without one the pressure is the law's at every point.
     """
     mu, kappa = material["mu"], material["kappa"]
     f = DEFORMATION
@@ -228,24 +226,21 @@ class Body:
         header = self.header
         self.model = gf.Model("real")
         self.model.add_fem_variable("u", self.u)
-        pressures = [f"p{number}" if header["mixed"] else None for number in range(1, 1 + len(header["materials"]))]
-        cells_of = [np.flatnonzero(material == number) for number in range(len(pressures))]
-        for pressure, cells in zip(pressures, cells_of):
-            if pressure and len(cells) > 0:
-                field = gf.MeshFem(self.gf_mesh, 1)
-                field.set_fem(self.mesh.lattice.pressure, cells)
-                self.model.add_fem_variable(pressure, field)
+        parts = [(1 + m, one, np.flatnonzero(material == m)) for m, one in enumerate(header["materials"])]
+        parts = [part for part in parts if len(part[2]) > 0]  # later materials may have all cells of an earlier one
+        for number, _, cells in parts if header["mixed"] else []:
+            pressure = gf.MeshFem(self.gf_mesh, 1)
+            pressure.set_fem(self.mesh.lattice.pressure, cells)
+            self.model.add_fem_variable(f"p{number}", pressure)
         first = self.model.interval_of_variable("u")[0]  # a model's variables are in alphabetical order
         self.constrained += first
         self.values = [(dofs + first, axis, at) for dofs, axis, at in self.values]
         self.model.add_initialized_data("factor", [1.0])
-        for number, (one, pressure, cells) in enumerate(zip(header["materials"], pressures, cells_of), 1):
-            if len(cells) == 0:
-                continue  # other materials have taken all of its cells
+        for number, one, cells in parts:
             self.gf_mesh.set_region(number, np.array([cells, np.full(len(cells), -1)]))
-            self.model.add_nonlinear_term(self.integration, law(header["law"], one, pressure), number)
-            weight = ",".join(str(one["density"] * a) for a in header["acceleration"])
-            self.add_load(f"[{weight}]", number)
+            form = law(header["law"], one, f"p{number}" if header["mixed"] else None)
+            self.model.add_nonlinear_term(self.integration, form, number)
+            self.add_load(f"[{','.join(str(one['density'] * a) for a in header['acceleration'])}]", number)
         faces = self.outer_faces()
         for number, load in enumerate(header["loads"], 1 + len(header["materials"])):
             loaded = [faces[tuple(sorted(face))] for face in self.mesh.parts[load["parts"]]]
