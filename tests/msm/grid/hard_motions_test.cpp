@@ -119,7 +119,7 @@ TEST_CASE("springs that fly and spin keep momentum and angular momentum", "[veri
 }
 
 TEST_CASE("10,000 steps of nonlinear springs that spin drift neither in momentum nor in energy",
-          "[verification][long]") {
+          "[verification][release]") {
   const auto mass = GENERATE(cases::PointMass::cells, cases::PointMass::consistent);
   Flight flight(power_log, mass);
   mechanics::IntegrationSettings settings;
