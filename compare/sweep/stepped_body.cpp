@@ -102,6 +102,7 @@ std::vector<Steps> steps_to_try(const AnyMethod& method, const cases::RealTime& 
   std::visit(
       [&](auto by) {
         by.damping = given.damping;
+        by.chebyshev = given.chebyshev;
         if (cases::is_explicit(by.method)) return void(all.emplace_back(by));
         for (const auto& [iterations, substeps] : {std::pair{1, 1}, {10, 1}, {1, 10}, {50, 1}, {1, 50}}) {
           by.iterations = iterations;

@@ -84,7 +84,7 @@ TEST_CASE("Cook's membrane of q2 cells deflects as the deal.II code gallery prin
 
 TEST_CASE("Cook's membrane of 64 x 64 q2 cells deflects as the deal.II code gallery prints it",
           "[verification][release]") {
-  deflects(Element::q2, 64, {14.74, 14.74}, 0.01);
+  deflects(Element::q2, 64, {14.74}, 0.01);
 }
 
 TEST_CASE("Cook's membrane of tetrahedra deflects to the limit of the deal.II code gallery's hexahedra",
