@@ -187,7 +187,7 @@ void TimeIntegrator::take_along() {
 void TimeIntegrator::finish_step(const StepCoefficients& c, double to) {
   place_ -= now_.displacement; // w - u0
   next_.time = to;
-  next_.displacement = now_.displacement + place_ / c.place;
+  next_.displacement = now_.displacement + (1 / c.place) * place_;
   problem_.supports_at(to, next_.displacement);
   if (c.known_velocity.is_none() && c.place == 1) {
     next_.velocity = c.damping * place_;
@@ -197,7 +197,7 @@ void TimeIntegrator::finish_step(const StepCoefficients& c, double to) {
   }
   combine(c.known_acceleration);
   next_.acceleration =
-      now_.acceleration + (c.mass * place_ - known_ - now_.acceleration) / c.place_acceleration;
+      now_.acceleration + (1 / c.place_acceleration) * (c.mass * place_ - known_ - now_.acceleration);
   step_ = next_.acceleration - now_.acceleration;
   is_smooth_ = norm(step_) < norm(next_.acceleration);
   problem_.end_step(next_.displacement, to - now_.time);

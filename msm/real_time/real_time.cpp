@@ -81,16 +81,24 @@ MovingSprings::StepMethod step_method(const cases::RealTime& real_time, const Pr
                                       int n_threads) {
   const Points zero(problem.lattice.rest.size(), Eigen::Vector3d::Zero());
   return [components = components_of(problem), step = StepEquation{zero, zero, zero, {}}, points = zero,
+          inertia_before = Vector(Vector::Zero(components_of(problem).size())),
           make = make_step(real_time, problem, n_threads)](
              const mechanics::StepTerms& terms, const Vector& inertia, const Pull* pull, Vector& at) mutable {
-    flat(step.inertia)(components) = inertia;
-    flat(step.origin)(components) = terms.origin;
-    flat(step.force)(components) = terms.force;
-    flat(points)(components) = at;
+    if (inertia != inertia_before) {
+      inertia_before = inertia;
+      flat(step.inertia)(components) = inertia;
+    }
+    double *origin = flat(step.origin).data(), *force = flat(step.force).data(), *place = flat(points).data();
+    for (Eigen::Index n = 0; n < at.size(); ++n) { // one pass: a step of few springs is mostly such passes
+      const int component = components[n];
+      origin[component] = terms.origin[n];
+      force[component] = terms.force[n];
+      place[component] = at[n];
+    }
     step.pull.reset();
     if (pull) step.pull = pull_of_points(*pull, components);
     const int iterations = make(step, points);
-    at = flat(points)(components);
+    for (Eigen::Index n = 0; n < at.size(); ++n) at[n] = place[components[n]];
     return iterations;
   };
 }

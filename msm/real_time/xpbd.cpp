@@ -1,6 +1,7 @@
 #include "cases/case/error.hpp"
 #include "mechanics/real_time/constraint.hpp"
 #include "msm/real_time/colours.hpp"
+#include "msm/real_time/hooke_springs.hpp"
 #include "msm/real_time/step_method.hpp"
 
 #include <algorithm>
@@ -47,19 +48,13 @@ Constraint<Points> constraint_of(const VolumePatch& patch, const Points& x) {
   return constraint_of_volume(patch, x, patch.gradient(x));
 }
 
-/// Hooke's spring between two nodes, with its multiplier.
-struct HookeSpring {
-  std::array<int, 2> nodes;
-  double stiffness, rest_length, multiplier;
-};
-
 /// Projections of one term after the other (mechanics/real_time/constraint.hpp). Hooke's springs come first,
-/// in an array in the order of their colours: nearly all bodies have no other terms, or few.
+/// in an array in the order of their colours, four at a time: nearly all bodies have no other terms, or few.
 class Xpbd {
  public:
   Xpbd(const Lattice& lattice, int iterations, int n_threads)
       : lattice_(lattice), iterations_(iterations), n_threads_(n_threads),
-        x_(lattice.rest.size(), Eigen::Vector4d::Zero()), mobility_(x_) {
+        x_(lattice.rest.size() + 2, WholePoint(0, 0, 0, 0)), mobility_(x_) {
     if (!lattice.tetrahedra.empty())
       throw cases::InputError("msm.real_time.method: tetrahedra of biquadratic springs are no constraints of "
                               "one number; choose \"vertex_block_descent\" or \"implicit_euler\"");
@@ -74,11 +69,19 @@ class Xpbd {
         of_others.push_back(nodes[n]);
         others_.push_back(n);
       }
+    const int spare = static_cast<int>(lattice.rest.size());
+    x_.back().x() = 1; // a spare spring has a length
     for (const std::vector<int>& of_colour : mechanics::colour(of_springs, lattice.rest.size())) {
-      for (const int number : of_colour) {
-        const auto& ends = of_springs[cases::index(number)];
-        const Spring& spring = *springs[cases::index(number)];
-        springs_.push_back({{ends[0], ends[1]}, spring.stiffness, spring.rest_length, 0});
+      for (std::size_t n = 0; n < (of_colour.size() + 3) / 4 * 4; ++n) {
+        if (n % 4 == 0) springs_.emplace_back();
+        FourSprings& four = springs_.back();
+        four.nodes[0][n % 4] = spare, four.nodes[1][n % 4] = spare + 1;
+        four.stiffness[n % 4] = four.rest_length[n % 4] = 0;
+        if (n >= of_colour.size()) continue;
+        const std::size_t number = cases::index(of_colour[n]);
+        for (std::size_t end = 0; end < 2; ++end) four.nodes[end][n % 4] = of_springs[number][end];
+        four.stiffness[n % 4] = springs[number]->stiffness;
+        four.rest_length[n % 4] = springs[number]->rest_length;
       }
       ends_of_colours_.push_back(static_cast<std::ptrdiff_t>(springs_.size()));
     }
@@ -92,9 +95,15 @@ class Xpbd {
     for (int n = 0; n < iterations_; ++n) {
       std::ptrdiff_t begin = 0;
       for (const std::ptrdiff_t end : ends_of_colours_) {
-        mechanics::grid::on_threads(
-            end - begin, n_threads_, [&](std::ptrdiff_t s) { project(springs_[std::size_t(begin + s)]); },
-            64);
+        constexpr std::ptrdiff_t at_once = 16;
+        mechanics::grid::on_threads((end - begin + at_once - 1) / at_once, n_threads_, [&](std::ptrdiff_t c) {
+          const std::ptrdiff_t first = begin + c * at_once;
+          const std::ptrdiff_t n_at_once = std::min(at_once, end - first);
+          if (is_same_in_all_directions_)
+            msm::project(springs_.data() + first, n_at_once, n == 0, x_);
+          else
+            msm::project(springs_.data() + first, n_at_once, n == 0, x_, mobility_);
+        });
         begin = end;
       }
       mechanics::for_each_item(colours_, n_threads_, [&](std::size_t number) {
@@ -109,41 +118,38 @@ class Xpbd {
  private:
   const Lattice& lattice_;
   int iterations_, n_threads_;
-  std::vector<HookeSpring> springs_;
+  std::vector<FourSprings> springs_;
   std::vector<std::ptrdiff_t> ends_of_colours_;
   std::vector<std::size_t> others_; ///< numbers in nodes_of_terms()
   mechanics::Colours colours_;      ///< colours others_
   std::vector<double> multipliers_; ///< one for each of others_
-  std::vector<Eigen::Vector4d> x_,  ///< positions, mm; the fourth entry is 0, so that packs load them whole
-      mobility_;                    ///< D^-1, 0 on constrained components
+  WholePoints x_,  ///< positions, mm, and two spare points that fill up the last four springs
+      mobility_;   ///< D^-1, 0 on constrained components
+  Points inertia_; ///< D of mobility_
+  bool is_same_in_all_directions_ = false; ///< each node's mobility
+
+  void take_inertia(const Points& inertia) {
+    inertia_ = inertia;
+    is_same_in_all_directions_ = true;
+    for (std::size_t p = 0; p < inertia.size(); ++p) {
+      for (int c = 0; c < 3; ++c) mobility_[p][c] = inertia[p][c] > 0 ? 1 / inertia[p][c] : 0;
+      is_same_in_all_directions_ &= (mobility_[p].head<3>().array() == mobility_[p][0]).all();
+    }
+    for (FourSprings& four : springs_)
+      for (int end = 0; end < 2; ++end)
+        for (int s = 0; s < 4; ++s) four.mobility[end][s] = mobility_[cases::index(four.nodes[end][s])][0];
+  }
 
   /// Lets the points go freely from where the step begins.
   void begin(const StepEquation& step, const Points& at) {
-    for (std::size_t p = 0; p < at.size(); ++p)
-      for (int c = 0; c < 3; ++c) {
-        const double inertia = step.inertia[p][c], mobility = inertia > 0 ? 1 / inertia : 0;
-        mobility_[p][c] = mobility;
-        x_[p][c] =
-            lattice_.rest[p][c] + (inertia > 0 ? step.origin[p][c] + mobility * step.force[p][c] : at[p][c]);
-      }
-    for (HookeSpring& spring : springs_) spring.multiplier = 0;
+    if (step.inertia != inertia_) take_inertia(step.inertia);
+    for (std::size_t p = 0; p < at.size(); ++p) {
+      const Eigen::Array3d mobility = mobility_[p].head<3>();
+      x_[p].head<3>() =
+          lattice_.rest[p] +
+          (mobility > 0).select(step.origin[p] + mobility_[p].head<3>().cwiseProduct(step.force[p]), at[p]);
+    }
     std::fill(multipliers_.begin(), multipliers_.end(), 0.);
-  }
-
-  /// The general projection with C = l, whose two quotients by l and 1 + U'' w are one.
-  void project(HookeSpring& spring) {
-    Eigen::Vector4d &x_i = x_[std::size_t(spring.nodes[0])], &x_j = x_[std::size_t(spring.nodes[1])];
-    const Eigen::Vector4d &d_i = mobility_[std::size_t(spring.nodes[0])],
-                          &d_j = mobility_[std::size_t(spring.nodes[1])];
-    const Eigen::Vector4d d = x_j - x_i;
-    const double squared = d.squaredNorm(), length = std::sqrt(squared),
-                 weight = (d_i + d_j).dot(d.cwiseAbs2()); // w l²
-    if (weight == 0) return;                              // between supports
-    const double force = spring.stiffness * (length - spring.rest_length) + spring.multiplier,
-                 change = -force * length / (squared + std::max(spring.stiffness, 0.) * weight);
-    spring.multiplier += change * length;
-    x_i -= change * d_i.cwiseProduct(d);
-    x_j += change * d_j.cwiseProduct(d);
   }
 
   template<class Term>
