@@ -111,8 +111,8 @@ JudgedRow fem_row(const Basis& basis) {
 /// A model of ours as a row asks it.
 struct OwnModel {
   std::function<Answer(const mechanics::StepLimits&)> solve;
-  bool is_solved;              ///< nothing is left by iterations
-  std::string without_parts{}; ///< why the parts of its error are not told; empty: they are
+  bool is_solved; ///< nothing is left by iterations
+  bool is_of_elements = false;
 };
 
 OwnModel springs_of(const cases::Scene& scene) {
@@ -127,7 +127,17 @@ OwnModel elements_of(const cases::Scene& scene) {
   return {[&scene](const mechanics::StepLimits& limits) {
             return solve_stepped_fem(scene, fem_reference::StepBy::method, limits);
           },
-          false, "stepped elements have them by run --error-budget"};
+          false, true};
+}
+
+/// @param answer  of stepped elements
+ErrorBudget parts_of_elements(const Basis& basis, const Answer& answer, const std::string& measure) {
+  Answers stepped = basis.fem;
+  stepped.fem = answer;
+  stepped.resolved = basis.scene.definition.fem;
+  Comparison compared = compare_sides(basis.scene, basis.fem, Answers{});
+  compared.answers = std::move(stepped);
+  return budget_of_stepped_elements(compared, measure);
 }
 
 /// What holds for clients holds for our steps in real time: a limit on wall-clock time, and mean places of a
@@ -142,7 +152,8 @@ JudgedRow own_row(const Basis& basis, const OwnModel& model, const ClientBudget&
   limits.tell_moving = [&](const mechanics::CameToRest& body) { moving = body; };
   const Answer answer = model.solve(limits);
   JudgedRow row = row_of(springs_model, basis, answer, model.is_solved);
-  if (row.parts && !model.without_parts.empty()) row.parts = without_parts(row.worst_at, model.without_parts);
+  if (row.parts && model.is_of_elements && !basis.scene.definition.dynamics)
+    row.parts = parts_of_elements(basis, answer, row.worst_at);
   if (is_late) row.failure += fmt::format(": it took longer than {:g} s", budget.seconds);
   row.milliseconds_a_step = milliseconds_a_step(answer);
   if (moving && row.failure.empty()) {

@@ -365,6 +365,14 @@ ErrorBudgets study_errors(const Comparison& comparison, const Request& request) 
   return budgets;
 }
 
+ErrorBudget budget_of_stepped_elements(const Comparison& stepped, const std::string& measure) {
+  std::string why;
+  const std::optional<SolvedFem> solved = solved_fem(stepped, why);
+  Budget budget(*find_named(stepped.scene.definition.measures, measure), stepped);
+  if (solved) why = budget.find_truth(stepped.mesh_study, *solved);
+  return why.empty() ? budget.of_fem(*solved) : ErrorBudget{measure, {}, {}, {}, {}, {}, why};
+}
+
 struct SpringLattices::All {
   std::vector<SolvedLattice> lattices;
   std::string note;

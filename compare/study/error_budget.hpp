@@ -82,6 +82,11 @@ class SpringLattices {
   std::shared_ptr<const All> all_;
 };
 
+/// Parts of the error of elements that a method of [fem] real_time has brought to rest, at a measure of the
+/// case. Solves the elements in equilibrium.
+/// @param stepped  compared with the truth, its finite elements the method's
+ErrorBudget budget_of_stepped_elements(const Comparison& stepped, const std::string& measure);
+
 /// A table of both models, and a sentence on the worst measure of the springs: its parts, whether they
 /// cancel, what to change first.
 void write_error_budget_text(std::ostream& out, const ErrorBudgets& budgets);

@@ -138,10 +138,11 @@ TEST_CASE("the parts of an error in a league add up to it") {
   const std::string file = (folder.path / "league.toml").string();
   std::ofstream(file) << "cases = [\"bar.toml\"]\n[[client]]\nname = \"few\"\nmethod = \"xpbd\"\n"
                          "substeps = [1]\niterations = [4]\n[[client]]\nname = \"many\"\n"
-                         "method = \"implicit_euler\"\n";
+                         "method = \"implicit_euler\"\n[[client]]\nname = \"elements\"\n"
+                         "method = \"fem.corotational\"\n";
   const compare::League league = compare::read_league(file);
   const compare::LeagueTable table = compare::play(league, [](const std::string&) {});
-  int n_judged = 0;
+  int n_judged = 0, n_of_elements = 0;
   for (const compare::JudgedRow& row : table.cases.at(0).rows) {
     CAPTURE(row.model, row.chosen, row.failure);
     if (!row.worst) continue;
@@ -152,9 +153,17 @@ TEST_CASE("the parts of an error in a league add up to it") {
     CHECK(row.parts->step.percent == 0.); // a body at rest has none
     if (row.model == "many" || row.model == compare::springs_model)
       CHECK(std::abs(row.parts->iterations.percent.value()) < 1);
+    if (row.model == "elements") {
+      ++n_of_elements;
+      const compare::JudgedRow& solved = table.cases.at(0).rows.front(); // of another law, on the same mesh
+      CHECK(row.parts->mesh.percent.value() == Approx(*solved.worst).epsilon(1e-3));
+      CHECK(row.parts->law.percent.value() != 0.);
+      CHECK(std::abs(row.parts->iterations.percent.value()) < 1);
+    }
     if (row.model == "few") CHECK(std::abs(row.parts->iterations.percent.value()) > 10);
   }
-  CHECK(n_judged >= 4);
+  CHECK(n_judged >= 5);
+  CHECK(n_of_elements >= 1);
   std::ostringstream page;
   compare::write_league_markdown(page, table, league);
   CHECK_THAT(page.str(), Catch::Contains("| law, % | mesh, % | step, % | iterations, % |"));
