@@ -4,6 +4,7 @@
 #include "cases/case/names.hpp"
 
 #include <optional>
+#include <string>
 
 /// Steps as simulators make them: by an amount of work that is given, whatever it leaves.
 namespace springproof::cases {
@@ -38,5 +39,17 @@ inline bool has_law_of_case(ElementMethod method) {
 }
 
 using ElementRealTime = StepsBy<ElementMethod>;
+
+/// "xpbd, 10 iterations, 1 substep".  @param n_substeps  none: it is not told
+template<class Method>
+std::string text_of(const StepsBy<Method>& steps, std::optional<int> n_substeps) {
+  std::string text = name_of(steps.method);
+  const auto add = [&](const char* what, int n) {
+    text += ", " + std::to_string(n) + ' ' + what + (n == 1 ? "" : "s");
+  };
+  if (!is_explicit(steps.method)) add("iteration", steps.iterations);
+  if (n_substeps) add("substep", *n_substeps);
+  return text;
+}
 
 } // namespace springproof::cases

@@ -68,17 +68,9 @@ AnyMethod method_of(const Steps& steps) {
 }
 
 std::string text_of(const Steps& steps) {
-  std::string text = name_of(method_of(steps));
-  const auto add = [&](const char* what, int n) {
-    text += fmt::format(", {} {}{}", n, what, n == 1 ? "" : "s");
-  };
-  std::visit(
-      [&](const auto& by) {
-        if (!cases::is_explicit(by.method)) add("iteration", by.iterations);
-        if (by.substeps) add("substep", *by.substeps);
-      },
-      steps);
-  return text;
+  const bool is_of_elements = std::holds_alternative<cases::ElementRealTime>(steps);
+  return (is_of_elements ? of_elements : "") +
+         std::visit([](const auto& by) { return cases::text_of(by, by.substeps); }, steps);
 }
 
 Steps steps_in(const AnyMethod& method, const ClientBudget& budget) {

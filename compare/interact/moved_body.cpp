@@ -11,18 +11,6 @@ namespace springproof::compare {
 
 namespace {
 
-std::string counted(int n, const std::string& what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-}
-
-template<class Method>
-std::string text_of(const cases::StepsBy<Method>& given, int n_substeps) {
-  const std::string name = cases::name_of(given.method), substeps = counted(n_substeps, "substep");
-  return cases::is_explicit(given.method)
-             ? name + ", " + substeps
-             : fmt::format("{}, {}, {}", name, counted(given.iterations, "iteration"), substeps);
-}
-
 /// Settings for pictures: fewer digits than a measure needs, and few halvings, so that a step ends in time.
 mechanics::IntegrationSettings steps_of(const cases::Scene& scene, const msm::SpringBody& springs) {
   if (scene.definition.msm.real_time)
@@ -66,9 +54,10 @@ class Springs : public MovedBody {
   mechanics::Contact* contact() override { return body_.motion().contact(); }
 
   std::string method_text() const override {
-    if (given_.real_time) return text_of(*given_.real_time, steps_.substeps);
+    if (given_.real_time) return cases::text_of(*given_.real_time, steps_.substeps);
     return given_.iterations_per_step
-               ? fmt::format("Newton's method, {} at most", counted(*given_.iterations_per_step, "iteration"))
+               ? fmt::format("Newton's method, {} iteration{} at most", *given_.iterations_per_step,
+                             *given_.iterations_per_step == 1 ? "" : "s")
                : fmt::format("Newton's method, to {:g}", steps_.newton.tolerance);
   }
 
@@ -113,7 +102,7 @@ class Elements : public MovedBody {
   Eigen::Vector3d force(const Vector& state) const override { return pull_->force(to_points(state)); }
   void remember_pull(const Vector& state) override { body_.points().remember_pull(state); }
 
-  std::string method_text() const override { return "elements, " + text_of(given_, steps_.substeps); }
+  std::string method_text() const override { return "elements, " + cases::text_of(given_, steps_.substeps); }
 
  private:
   cases::ElementRealTime given_;
