@@ -127,10 +127,15 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   void set_step(const mechanics::StepTerms& terms) override;
   void begin_motion(const State& at) override {
     if (assembly_.memory()) assembly_.memory()->begin(assembly_.elastic_stresses(at));
+    if (contact_) contact_->forget();
   }
   void end_step(const State& at, double length) override {
     if (assembly_.memory()) assembly_.memory()->end_step(assembly_.elastic_stresses(at), length);
     largest_contact_force_ = std::max(largest_contact_force_, contact_force_);
+    if (contact_) contact_->end_step(displacements(at), step_->time);
+  }
+  bool settle(const State& at) override {
+    return !contact_ || contact_->settle(displacements(at), step_->time);
   }
 
   std::vector<cases::ToolContact> tools_at(double time, const State& at) const override;
@@ -155,6 +160,10 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   State with_ghosts(const State& motion);
   void set_inertia_force(const LocalMatrix& matrix, const State& motion);
   void add_to_tangent(const LocalMatrix& added);
+  /// @param at  must outlive the result
+  static mechanics::DisplacementAt displacements(const State& at) {
+    return [&at](int node) -> Eigen::Vector3d { return at.segment<3>(3 * node); };
+  }
   void add_contact(const State& state, double load_factor, Wanted wanted);
   bool has_nodal_pressures() const { return discretisation_.element.pressure == Pressure::nodes; }
   void measure(const std::optional<InternalImbalance>& internal, double load_factor);

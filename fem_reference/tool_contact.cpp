@@ -74,7 +74,7 @@ void Discretisation::find_tool_sides(const cases::Scene& scene) {
 /// tangent; to the right side also what the gap will add, as that of the elements does.
 void EquilibriumEquations::add_contact(const State& state, double load_factor, Wanted wanted) {
   const auto& d = discretisation_;
-  const auto displacement = [&](int node) -> Vector3d { return state.segment<3>(3 * node); };
+  const auto displacement = displacements(state);
   const bool wants_tangent = wanted != Wanted::stress;
   double squared = 0;
   {
@@ -108,7 +108,7 @@ void EquilibriumEquations::add_contact(const State& state, double load_factor, W
 
 std::vector<cases::ToolContact> EquilibriumEquations::tools_at(double time, const State& at) const {
   if (!contact_) return {};
-  return contact_->found([&](int node) -> Vector3d { return at.segment<3>(3 * node); }, time);
+  return contact_->found(displacements(at), time);
 }
 
 /// A force on a node between the vertices of the body's own mesh goes to these by the cell's shape functions,

@@ -180,8 +180,16 @@ class MovingSprings : public mechanics::DynamicProblem {
     springs_.move_supports(displacement, time);
   }
   void set_step(const mechanics::StepTerms& terms) override;
+  void begin_motion(const Vector& /*at*/) override {
+    if (contact_) contact_->forget();
+  }
+  bool settle(const Vector& at) override {
+    return !contact_ || contact_->settle(displacements(at), terms_->time);
+  }
   void end_step(const Vector& at, double /*length*/) override {
-    if (contact_) largest_press_ = std::max(largest_press_, size_of_press(at));
+    if (!contact_) return;
+    largest_press_ = std::max(largest_press_, size_of_press(at));
+    contact_->end_step(displacements(at), terms_->time);
   }
   /// Supports of a method of its own are where the step has them, and take nothing along.
   bool moves_supports() const override { return !method_ && springs_.moves_supports(); }

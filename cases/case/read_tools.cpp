@@ -83,6 +83,12 @@ Tool read_tool(Table& keys, const Case& definition) {
   keys.refuse_unless(!definition.dynamics, {"steps"},
                      "left out beside [dynamics]: its step is the tool's too");
   tool.steps = keys.optional("steps", WholeNumber{"a whole number from 1 to 1000", 1, 1000}).value_or(1);
+  const auto is_coefficient = [](double value) { return value >= 0 && value <= Tool::most_friction; };
+  tool.friction =
+      keys.optional("friction",
+                    Number{fmt::format("a number from 0 to {:g}: Coulomb's coefficient", Tool::most_friction),
+                           is_coefficient})
+          .value_or(0);
   if (keys.has("region")) tool.region = read_region_entry(keys.entry("region"), definition.body);
   keys.know({"region"});
   return tool;

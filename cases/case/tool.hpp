@@ -2,7 +2,7 @@
 
 #include "cases/case/boundary.hpp"
 
-/// [[tool]] of a case file: a rigid body that presses against a body's surface without friction. Units: mm.
+/// [[tool]] of a case file: a rigid body that presses against a body's surface. Units: mm.
 namespace springproof::cases {
 
 /// What a tool can be. A shape has its `name` in case files and its keys; Tool::at says where it is.
@@ -51,6 +51,7 @@ struct Tool {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero(); ///< mm at full load
   std::optional<Region> region{};                         ///< what it may touch; absent: all of the surface
   int steps = 1;                                          ///< load steps, at least
+  double friction = 0;                                    ///< Coulomb's coefficient, 0 to most_friction
   History history{};                                      ///< in dynamic cases alone
   /// There too, in place of `at`, displacement and history: times (s), which ascend, and where it is (mm);
   /// straight between them, at rest before and after them.
@@ -62,11 +63,12 @@ struct Tool {
     if (!path.empty()) return place_on_path(at_factor);
     return at + (history.is_given() ? history.at(at_factor) : at_factor) * displacement;
   }
+  static constexpr double most_friction = 5; ///< far above rubber's on a rough road, about 1
   bool moves() const { return !displacement.isZero(0) || path.size() > 1; }
 
  private:
   Eigen::Vector3d place_on_path(double time) const;
 };
-SPRINGPROOF_FIELDS(Tool, name, shape, at, displacement, region, steps, history, path, where)
+SPRINGPROOF_FIELDS(Tool, name, shape, at, displacement, region, steps, friction, history, path, where)
 
 } // namespace springproof::cases

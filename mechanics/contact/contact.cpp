@@ -19,7 +19,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int most_augmentations = 50;
-constexpr double allowed_misfit = 1e-3; ///< relative to the indentation
+constexpr double allowed_misfit = 1e-3;   ///< relative to the indentation
+constexpr double allowed_friction = 1e-6; ///< relative to the sum of the points' bounds
 
 double modulus_of(const cases::LinearElastic& material) {
   return material.youngs_modulus;
@@ -51,11 +52,24 @@ Vector3d share_area(const cases::Mesh& mesh, const cases::FaceNodes& face, const
 
 } // namespace
 
+/// A point as a tool has it.
+struct Contact::Touch {
+  std::size_t side, index;
+  const SurfacePoint& point;
+  Vector3d from_tool; ///< mm, the point as seen from the tool's place
+  SignedDistance distance;
+  double pressure; ///< MPa
+};
+
 Contact::Contact(std::vector<ToolSide> sides) : sides_(std::move(sides)) {
-  for (const ToolSide& side : sides_) multipliers_.emplace_back(side.points.size(), 0.);
+  for (const ToolSide& side : sides_) {
+    multipliers_.emplace_back(side.points.size(), 0.);
+    grips_.emplace_back(side.tool.friction > 0 ? side.points.size() : 0);
+  }
+  forget();
 }
 
-/// Calls action(tool, point, signed distance, pressure in MPa) for every point.
+/// Calls action(touch) for every point.
 template<class Action>
 void Contact::for_each_point(const DisplacementAt& displacement, double load_factor,
                              const Action& action) const {
@@ -65,86 +79,149 @@ void Contact::for_each_point(const DisplacementAt& displacement, double load_fac
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vector3d from_tool = points[i].rest + displacement(points[i].node) - place;
       const SignedDistance distance = signed_distance(tool.shape, from_tool);
-      const double penalty = points[i].stiffness / points[i].area;
-      action(s, i, distance, std::max(0., multipliers_[s][i] - penalty * distance.value));
+      const double penalty = points[i].stiffness / points[i].area,
+                   pressure = std::max(0., multipliers_[s][i] - penalty * distance.value);
+      action(Touch{s, i, points[i], from_tool, distance, pressure});
     }
   }
 }
 
+Friction Contact::friction_at(const Touch& touch) const {
+  if (grips_[touch.side].empty()) return {};
+  return friction(grips_[touch.side][touch.index], touch.point.stiffness, touch.from_tool);
+}
+
+/// Returns what friction goes by once bound and plane are those of the pressure.
+Grip Contact::renewed(const Touch& touch, Held held) const {
+  Grip next = grips_[touch.side][touch.index];
+  next.normal = touch.distance.normal;
+  next.bound = sides_[touch.side].tool.friction * touch.pressure * touch.point.area;
+  if (held == Held::is_augmented) next.held = friction(next, touch.point.stiffness, touch.from_tool).force;
+  return next;
+}
+
 void Contact::for_each_pressed(const DisplacementAt& displacement, double load_factor,
                                const std::function<void(const Pressed&)>& action) const {
-  for_each_point(
-      displacement, load_factor,
-      [&](std::size_t s, std::size_t i, const SignedDistance& distance, double pressure) {
-        if (!(pressure > 0)) return;
-        const SurfacePoint& point = sides_[s].points[i];
-        const Vector3d& n = distance.normal;
-        const double force = pressure * point.area;
-        action({point.node, force * n, point.stiffness * n * n.transpose(), force * distance.curvature});
-      });
+  for_each_point(displacement, load_factor, [&](const Touch& touch) {
+    const Friction rubbed = friction_at(touch);
+    const bool is_pressed = touch.pressure > 0;
+    if (!is_pressed && rubbed.force.isZero(0)) return;
+    const Vector3d& n = touch.distance.normal;
+    const double force = touch.pressure * touch.point.area;
+    const double stiffness = is_pressed ? touch.point.stiffness : 0;
+    action({touch.point.node, force * n + rubbed.force, stiffness * n * n.transpose() + rubbed.stiffness,
+            force * touch.distance.curvature});
+  });
 }
 
 double Contact::energy(const DisplacementAt& displacement, double load_factor) const {
   double sum = 0;
-  for_each_point(displacement, load_factor,
-                 [&](std::size_t s, std::size_t i, const SignedDistance&, double pressure) {
-                   const SurfacePoint& point = sides_[s].points[i];
-                   sum += point.area * point.area / (2 * point.stiffness) *
-                          (pressure * pressure - multipliers_[s][i] * multipliers_[s][i]);
-                 });
+  for_each_point(displacement, load_factor, [&](const Touch& touch) {
+    const double multiplier = multipliers_[touch.side][touch.index];
+    sum += touch.point.area * touch.point.area / (2 * touch.point.stiffness) *
+           (touch.pressure * touch.pressure - multiplier * multiplier);
+    sum += friction_at(touch).energy;
+  });
   return sum;
 }
 
 Contact::Misfit Contact::misfit(const DisplacementAt& displacement, double load_factor) const {
   Misfit found;
   double indentation = 0, way = 0; // mm: how deep the body at rest is met; how far points are pressed
-  for_each_point(displacement, load_factor,
-                 [&](std::size_t s, std::size_t i, const SignedDistance& distance, double pressure) {
-                   const auto& [tool, points] = sides_[s];
-                   const Vector3d rest = points[i].rest - tool.place(load_factor);
-                   indentation = std::max(indentation, -signed_distance(tool.shape, rest).value);
-                   if (!(pressure > 0)) return;
-                   way = std::max(way, displacement(points[i].node).norm());
-                   if (!(std::abs(distance.value) > found.largest)) return;
-                   found.largest = std::abs(distance.value);
-                   found.worst = s;
-                 });
+  for_each_point(displacement, load_factor, [&](const Touch& touch) {
+    const cases::Tool& tool = sides_[touch.side].tool;
+    const Vector3d rest = touch.point.rest - tool.place(load_factor);
+    indentation = std::max(indentation, -signed_distance(tool.shape, rest).value);
+    if (!grips_[touch.side].empty()) {
+      const Grip next = renewed(touch, Held::is_augmented);
+      found.friction +=
+          (friction(next, touch.point.stiffness, touch.from_tool).force - friction_at(touch).force).norm();
+      found.allowed_friction += allowed_friction * next.bound;
+    }
+    if (!(touch.pressure > 0)) return;
+    way = std::max(way, displacement(touch.point.node).norm());
+    if (!(std::abs(touch.distance.value) > found.largest)) return;
+    found.largest = std::abs(touch.distance.value);
+    found.worst = touch.side;
+  });
   found.allowed = allowed_misfit * (indentation > 0 ? indentation : way);
   return found;
 }
 
 void Contact::augment(const DisplacementAt& displacement, double load_factor) {
   std::vector<std::vector<double>> pressures = multipliers_;
-  for_each_point(displacement, load_factor,
-                 [&](std::size_t s, std::size_t i, const SignedDistance&, double pressure) {
-                   pressures[s][i] = pressure;
-                 });
+  std::vector<std::vector<Grip>> grips = grips_;
+  for_each_point(displacement, load_factor, [&](const Touch& touch) {
+    pressures[touch.side][touch.index] = touch.pressure;
+    if (!grips_[touch.side].empty()) grips[touch.side][touch.index] = renewed(touch, Held::is_augmented);
+  });
   multipliers_ = std::move(pressures);
+  grips_ = std::move(grips);
+  ++revision_;
+}
+
+bool Contact::settle(const DisplacementAt& displacement, double load_factor) {
+  if (!has_friction()) return true;
+  double change = 0, allowed = 0; // N
+  std::vector<std::vector<Grip>> grips = grips_;
+  for_each_point(displacement, load_factor, [&](const Touch& touch) {
+    if (grips_[touch.side].empty()) return;
+    const Grip next = grips[touch.side][touch.index] = renewed(touch, Held::stays);
+    change +=
+        (friction(next, touch.point.stiffness, touch.from_tool).force - friction_at(touch).force).norm();
+    allowed += allowed_friction * next.bound;
+  });
+  if (change <= allowed) return true;
+  grips_ = std::move(grips);
+  ++revision_;
+  return false;
+}
+
+void Contact::end_step(const DisplacementAt& displacement, double load_factor) {
+  if (!has_friction()) return;
+  std::vector<std::vector<Grip>> grips = grips_;
+  for_each_point(displacement, load_factor, [&](const Touch& touch) {
+    if (grips_[touch.side].empty()) return;
+    grips[touch.side][touch.index].held = friction_at(touch).force;
+    grips[touch.side][touch.index].anchor = touch.from_tool;
+  });
+  grips_ = std::move(grips);
   ++revision_;
 }
 
 void Contact::forget() {
   for (auto& of_tool : multipliers_) std::fill(of_tool.begin(), of_tool.end(), 0.);
+  for (std::size_t s = 0; s < sides_.size(); ++s) {
+    const auto& [tool, points] = sides_[s];
+    const Vector3d place = tool.place(0);
+    for (std::size_t i = 0; i < grips_[s].size(); ++i) {
+      grips_[s][i] = {};
+      grips_[s][i].anchor = points[i].rest - place;
+    }
+  }
   ++revision_;
+}
+
+bool Contact::has_friction() const {
+  return std::any_of(grips_.begin(), grips_.end(), [](const auto& of_tool) { return !of_tool.empty(); });
 }
 
 std::vector<cases::ToolContact> Contact::found(const DisplacementAt& displacement, double load_factor) const {
   std::vector<cases::ToolContact> all(sides_.size());
-  for_each_point(displacement, load_factor,
-                 [&](std::size_t s, std::size_t i, const SignedDistance& distance, double pressure) {
-                   const auto& [tool, points] = sides_[s];
-                   cases::ToolContact& here = all[s];
-                   here.penetration = std::max(here.penetration, -distance.value);
-                   if (!(pressure > 0)) return;
-                   const Vector3d force = pressure * points[i].area * distance.normal;
-                   const Vector3d at = points[i].rest + displacement(points[i].node);
-                   here.force += force;
-                   here.torque += (at - tool.place(load_factor)).cross(force);
-                   // the sides of an edge that the tool does not face are not pressed
-                   here.area += std::clamp(-points[i].facing.dot(distance.normal), 0., points[i].area);
-                   here.nodes.push_back(points[i].node);
-                   here.on_nodes.push_back(force);
-                 });
+  for_each_point(displacement, load_factor, [&](const Touch& touch) {
+    cases::ToolContact& here = all[touch.side];
+    here.penetration = std::max(here.penetration, -touch.distance.value);
+    const Vector3d rubbed = friction_at(touch).force;
+    if (!(touch.pressure > 0) && rubbed.isZero(0)) return;
+    const Vector3d force = touch.pressure * touch.point.area * touch.distance.normal + rubbed;
+    here.force += force;
+    here.torque += touch.from_tool.cross(force);
+    // the sides of an edge that the tool does not face are not pressed
+    if (touch.pressure > 0)
+      here.area += std::clamp(-touch.point.facing.dot(touch.distance.normal), 0., touch.point.area);
+    here.nodes.push_back(touch.point.node);
+    here.on_nodes.push_back(force);
+  });
   return all;
 }
 
@@ -177,40 +254,95 @@ std::vector<ToolSide> tool_sides(const cases::Scene& scene) {
   return sides;
 }
 
-Equilibrium find_equilibrium_in_contact(NonlinearProblem& problem, Contact* contact,
-                                        const std::function<DisplacementAt(const Vector&)>& displacement_of,
-                                        const Vector& start, const std::string& name,
-                                        const EquilibriumSettings& settings) {
+namespace {
+
+void add_work(Equilibrium& to, const Equilibrium& of) {
+  to.load_steps += of.load_steps;
+  to.newton_iterations += of.newton_iterations;
+  to.convexified_steps += of.convexified_steps;
+  to.escapes += of.escapes;
+  to.work.linear_iterations += of.work.linear_iterations;
+  to.work.factorisations += of.work.factorisations;
+  to.work.force_evaluations += of.work.force_evaluations;
+}
+
+[[noreturn]] void give_up_contact(const Contact& contact, const Contact::Misfit& misfit, int n,
+                                  const Equilibrium& found, const std::string& name) {
+  cases::Solution so_far = to_solution(found);
+  so_far.outcome = cases::Outcome::unknown;
+  if (misfit.largest <= misfit.allowed)
+    throw cases::SolveError(
+        fmt::format("{}: the friction of the tools does not settle: after {} "
+                    "augmentations its forces still change by {:.3g} N, more than the "
+                    "{:.3g} N that are allowed; take more load steps or a smaller friction",
+                    name, n, misfit.friction, misfit.allowed_friction),
+        std::move(so_far));
+  throw cases::SolveError(
+      fmt::format("{}: the contact with the tool '{}' does not settle: after {} augmentations its surface "
+                  "and the body's differ by {:.3g} mm, more than the {:.3g} mm that are allowed",
+                  name, contact.sides()[misfit.worst].tool.name, n, misfit.largest, misfit.allowed),
+      std::move(so_far));
+}
+
+/// The equilibrium at the settings' last load, with multipliers that have settled there.
+Equilibrium find_settled_equilibrium(NonlinearProblem& problem, Contact& contact,
+                                     const std::function<DisplacementAt(const Vector&)>& displacement_of,
+                                     const Vector& start, const std::string& name,
+                                     const EquilibriumSettings& settings) {
+  const Contact before = contact;
   Equilibrium found = find_equilibrium(problem, start, name, settings);
-  if (!contact) return found;
   EquilibriumSettings again = settings;
   again.from = settings.to;
   again.first_load_step = again.largest_load_step = 1;
   again.guess.reset();
   for (int n = 0;; ++n) {
-    const auto misfit = contact->misfit(displacement_of(found.state), settings.to);
+    const auto misfit = contact.misfit(displacement_of(found.state), settings.to);
     if (misfit.is_small()) return found;
-    if (n == most_augmentations) {
-      cases::Solution so_far = to_solution(found);
-      so_far.outcome = cases::Outcome::unknown;
-      throw cases::SolveError(
-          fmt::format(
-              "{}: the contact with the tool '{}' does not settle: after {} augmentations its surface "
-              "and the body's differ by {:.3g} mm, more than the {:.3g} mm that are allowed",
-              name, contact->sides()[misfit.worst].tool.name, n, misfit.largest, misfit.allowed),
-          std::move(so_far));
+    if (n == most_augmentations) give_up_contact(contact, misfit, n, found, name);
+    contact.augment(displacement_of(found.state), settings.to);
+    Equilibrium next;
+    try {
+      next = find_equilibrium(problem, found.state, name, again);
+    } catch (const cases::SolveError&) {
+      // Friction that sets in all at once is far to go. From the step's start, where its multipliers are in
+      // equilibrium, it grows with the tool's way, which can be divided.
+      if (!contact.has_friction()) throw;
+      contact.take_pressures_of(before);
+      next = find_equilibrium(problem, start, name, settings);
     }
-    contact->augment(displacement_of(found.state), settings.to);
-    Equilibrium next = find_equilibrium(problem, found.state, name, again);
-    next.load_steps += found.load_steps;
-    next.newton_iterations += found.newton_iterations;
-    next.convexified_steps += found.convexified_steps;
-    next.escapes += found.escapes;
-    next.work.linear_iterations += found.work.linear_iterations;
-    next.work.factorisations += found.work.factorisations;
-    next.work.force_evaluations += found.work.force_evaluations;
+    add_work(next, found);
     found = std::move(next);
   }
+}
+
+} // namespace
+
+Equilibrium find_equilibrium_in_contact(NonlinearProblem& problem, Contact* contact,
+                                        const std::function<DisplacementAt(const Vector&)>& displacement_of,
+                                        const Vector& start, const std::string& name,
+                                        const EquilibriumSettings& settings) {
+  if (!contact) return find_equilibrium(problem, start, name, settings);
+  if (!contact->has_friction())
+    return find_settled_equilibrium(problem, *contact, displacement_of, start, name, settings);
+  const int n_steps = std::max(1, static_cast<int>(std::ceil(1 / settings.largest_load_step - 1e-9)));
+  const auto load = [&](int step) {
+    return step == n_steps ? settings.to : settings.from + step * (settings.to - settings.from) / n_steps;
+  };
+  EquilibriumSettings part = settings; // a load step's, which may be divided where Newton's method fails
+  part.first_load_step = part.largest_load_step = 1;
+  part.smallest_load_step = std::min(n_steps * settings.smallest_load_step, 1. / 16);
+  part.guess.reset();
+  std::optional<Equilibrium> found;
+  for (int step = 1; step <= n_steps; ++step) {
+    part.from = load(step - 1);
+    part.to = load(step);
+    Equilibrium next = find_settled_equilibrium(problem, *contact, displacement_of,
+                                                found ? found->state : start, name, part);
+    if (found) add_work(next, *found);
+    found = std::move(next);
+    contact->end_step(displacement_of(found->state), part.to);
+  }
+  return std::move(*found);
 }
 
 } // namespace springproof::mechanics

@@ -2,11 +2,12 @@
 
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
+#include "mechanics/contact/friction.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
 #include <functional>
 
-/// Contact with rigid tools without friction, one law for both models. At a point of the body's surface with
+/// Contact with rigid tools, one law for both models. At a point of the body's surface with
 /// the area A the pressure is p = max(0, lambda - epsilon g), g the signed distance from the tool at the
 /// displaced point, lambda its multiplier (MPa) and epsilon a penalty (MPa/mm). Its potential
 /// A (p² - lambda²)/(2 epsilon) is an augmented Lagrangian: an equilibrium is found at fixed multipliers,
@@ -14,6 +15,10 @@
 /// with the integral of their shape function over the surface: forces then have a limit under refinement.
 /// In a motion multipliers stay 0 and the penalty is ten times as stiff: the force is then a function of the
 /// displacement alone, without a memory of earlier steps that a step taken again would have to take back.
+/// Friction is Coulomb's, see friction(), with the penalty as its stiffness. It remembers where a point was
+/// on the tool when the last step ended, and its force there, which only the end of a step changes: a step
+/// that is taken again has nothing to take back. Augmentations have the friction's force too as a multiplier,
+/// so that points stick without a slide; in a motion they give way by the bound over the penalty at most.
 /// Source: J. C. Simo and T. A. Laursen, An augmented Lagrangian treatment of contact problems involving
 /// friction, Computers & Structures 42 (1992).
 namespace springproof::mechanics {
@@ -49,31 +54,45 @@ class Contact {
   /// What a pressed point adds.
   struct Pressed {
     int node;
-    Eigen::Vector3d force;     ///< on the body, N
-    Eigen::Matrix3d stiffness; ///< the penalty's, N/mm, >= 0
+    Eigen::Vector3d force;     ///< on the body, N, with that of friction
+    Eigen::Matrix3d stiffness; ///< the penalty's and the friction's, N/mm, >= 0
     Eigen::Matrix3d softening; ///< by the tool's curvature, N/mm, >= 0 and subtracted
     Eigen::Matrix3d tangent() const { return stiffness - softening; }
   };
-  /// Calls action(pressed) for every point with a pressure.
+  /// Calls action(pressed) for every point with a pressure or friction.
   void for_each_pressed(const DisplacementAt& displacement, double load_factor,
                         const std::function<void(const Pressed&)>& action) const;
 
-  /// Potential of the pressures, N mm.
+  /// Potential of the pressures, and of the friction with its bounds held, N mm.
   double energy(const DisplacementAt& displacement, double load_factor) const;
 
-  /// How far pressed points are from the tool's surface.
+  /// How far pressed points are from the tool's surface, and friction from its law.
   struct Misfit {
-    double largest = 0;    ///< mm, of a pressed point, to either side
-    double allowed = 0;    ///< mm
-    std::size_t worst = 0; ///< the tool's index
-    bool is_small() const { return largest <= allowed; }
+    double largest = 0;          ///< mm, of a pressed point, to either side
+    double allowed = 0;          ///< mm
+    std::size_t worst = 0;       ///< the tool's index
+    double friction = 0;         ///< N: the sum of what augment() would change of the points' friction
+    double allowed_friction = 0; ///< N
+    bool is_friction_small() const { return friction <= allowed_friction; }
+    bool is_small() const { return largest <= allowed && is_friction_small(); }
   };
   Misfit misfit(const DisplacementAt& displacement, double load_factor) const;
 
-  /// Multipliers take the pressures' values.
+  /// Multipliers take the values of pressures and friction, whose bounds follow.
   void augment(const DisplacementAt& displacement, double load_factor);
-  /// Multipliers become 0, as before a path from rest.
+  /// Brings the friction's bounds and planes to the pressures, where that would change its forces by more
+  /// than a millionth of the bounds.  @return whether there was nothing to change
+  bool settle(const DisplacementAt& displacement, double load_factor);
+  /// Has friction remember where points are on the tools, and its forces, from now on.
+  void end_step(const DisplacementAt& displacement, double load_factor);
+  /// Multipliers become 0, and points have always been where they are at rest, as before a path from there.
   void forget();
+  /// Takes the pressures' multipliers of another state of the same contact, and keeps what friction knows.
+  void take_pressures_of(const Contact& other) {
+    multipliers_ = other.multipliers_;
+    ++revision_;
+  }
+  bool has_friction() const;
   /// Counts the changes of multipliers.
   int revision() const { return revision_; }
 
@@ -88,10 +107,15 @@ class Contact {
  private:
   std::vector<ToolSide> sides_;
   std::vector<std::vector<double>> multipliers_; ///< MPa, for every tool one per point
+  std::vector<std::vector<Grip>> grips_;         ///< likewise; none of a tool without friction
   int revision_ = 0;
 
+  struct Touch;
+  enum class Held { stays, is_augmented };
   template<class Action>
   void for_each_point(const DisplacementAt& displacement, double load_factor, const Action& action) const;
+  Friction friction_at(const Touch& touch) const;
+  Grip renewed(const Touch& touch, Held held) const;
 };
 
 /// Young's modulus at rest of a scene's stiffest material, MPa, times 10; times 100 in a motion, where
@@ -102,7 +126,8 @@ double contact_modulus(const cases::Scene& scene);
 std::vector<ToolSide> tool_sides(const cases::Scene& scene);
 
 /// Static equilibrium in contact: find_equilibrium(), and again at the same load while multipliers change.
-/// Without a contact it is find_equilibrium().
+/// With friction this is done for every load step of the settings' largest length, at whose end it remembers
+/// where points are. Without a contact it is find_equilibrium().
 /// @param contact          null: there is none
 /// @param displacement_of  returns the displacements in a state, which outlives them
 /// @throws cases::SolveError as find_equilibrium(), or if the multipliers do not settle

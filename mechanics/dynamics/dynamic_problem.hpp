@@ -76,8 +76,12 @@ class DynamicProblem : public NonlinearProblem {
   /// Sets the step of all later evaluations. What the terms refer to must live until the next call.
   virtual void set_step(const StepTerms& terms) = 0;
 
-  /// Makes a material's memory that of a body that has always been at this displacement.
+  /// Makes a material's memory that of a body that has always been at this displacement. That of friction is
+  /// of a body at rest.
   virtual void begin_motion(const Vector& /*displacement*/) {}
+  /// Brings what a step's equation holds, the bounds of friction, to its solution.
+  /// @return whether they agreed; otherwise the equation is another one now
+  virtual bool settle(const Vector& /*solution*/) { return true; }
   /// Takes a step into that memory.
   /// @param displacement  mm, at the step's end    @param length  s
   virtual void end_step(const Vector& /*displacement*/, double /*length*/) {}

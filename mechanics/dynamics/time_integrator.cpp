@@ -10,6 +10,10 @@
 
 namespace springproof::mechanics {
 
+namespace {
+constexpr int most_settlings = 50;
+}
+
 IntegrationSettings in_real_time(int linear_iterations) {
   IntegrationSettings settings;
   settings.newton.tolerance = 1e-2;
@@ -137,7 +141,7 @@ bool TimeIntegrator::solve(const StepTerms& terms, const StepCoefficients& c, do
          {is_smooth_ ? Guess::acceleration_stays : Guess::velocity_stays, Guess::displacement_stays}) {
       predict(c, to, guess);
       if (problem_.moves_supports()) take_along();
-      is_solved = newton_.solve(place_, 0, Convexity::clamped);
+      is_solved = find_place();
       if (is_solved) break;
     }
   } catch (const Newton::Stopped& stopped) {
@@ -145,8 +149,20 @@ bool TimeIntegrator::solve(const StepTerms& terms, const StepCoefficients& c, do
     give_up(stopped.reason);
   }
   work_.newton_iterations += iterations_before;
-  if (!is_solved) failure_ = newton_.failure();
   return is_solved;
+}
+
+/// Solves from place_, and again while what the equation holds does not agree with the solution.
+bool TimeIntegrator::find_place() {
+  for (int n = 0; n <= most_settlings; ++n) {
+    if (!newton_.solve(place_, 0, Convexity::clamped)) {
+      failure_ = newton_.failure();
+      return false;
+    }
+    if (problem_.settle(place_)) return true;
+  }
+  failure_ = "the friction of the tools does not settle";
+  return false;
 }
 
 /// Sets guess_, and place_ and supports_ with the supports where the step holds them.

@@ -82,6 +82,7 @@ class TimeIntegrator {
   void add_known_forces(const StepCoefficients& coefficients);
   void combine(const KnownMotion& known);
   bool solve(const StepTerms& terms, const StepCoefficients& coefficients, double to);
+  bool find_place();
   enum class Guess { acceleration_stays, velocity_stays, displacement_stays };
   void predict(const StepCoefficients& coefficients, double to, Guess guess);
   void take_along();

@@ -320,6 +320,7 @@ class MovingLattice : public MovingSprings {
   }
 
   void begin_motion(const Vector& at) override {
+    MovingSprings::begin_motion(at);
     if (memory_) memory_->begin(to_points(problem_, at));
   }
   void set_step(const mechanics::StepTerms& terms) override {

@@ -28,7 +28,8 @@ std::string from_rest() {
 
 TEST_CASE("tools of every shape are read, and one that moves takes the place of a load") {
   const Case c = read_text(pressed(
-      ball + "steps = 3\n[[tool]]\nname = 'bar'\nshape = 'cylinder'\ncentre = [5, 5, 20]\nradius = 4\n"
+      ball + "steps = 3\nfriction = 0.3\n[[tool]]\nname = 'bar'\nshape = 'cylinder'\ncentre = [5, 5, "
+             "20]\nradius = 4\n"
              "axis = 'y'\n[[tool]]\nname = 'punch'\nshape = 'punch'\ncentre = [5, 5, 30]\nradius = 4\n"
              "axis = [0, 0, -2]\n[[tool]]\nname = 'floor'\nshape = 'plane'\npoint = [0, 0, -1]\n"
              "normal = 'z'\nregion = 'z-'\n"));
@@ -39,6 +40,8 @@ TEST_CASE("tools of every shape are read, and one that moves takes the place of 
   CHECK(c.tools[0].at == Eigen::Vector3d(5, 5, 14));
   CHECK(c.tools[0].displacement == Eigen::Vector3d(0, 0, -1));
   CHECK(least_load_steps(c) == 3);
+  CHECK(c.tools[0].friction == 0.3);
+  CHECK(c.tools[1].friction == 0);
   CHECK(std::get<tools::Cylinder>(c.tools[1].shape).axis == Eigen::Vector3d::UnitY());
   CHECK(std::get<tools::Punch>(c.tools[2].shape).axis == -Eigen::Vector3d::UnitZ());
   CHECK(std::get<tools::Plane>(c.tools[3].shape).normal == Eigen::Vector3d::UnitZ());
@@ -70,6 +73,9 @@ TEST_CASE("a mistake in a tool is refused where it stands, with what is allowed"
   refused("radius = 4", "radius = 0", line_of("radius = 4"), "tool[0].radius", {"a number above 0 (mm)"});
   refused("radius = 4", "radius = 4\naxis = 'z'", line_of("radius = 4") + 1, "tool[0].axis",
           {"left out: it belongs to another shape than \"sphere\""});
+  for (const char* friction : {"-0.1", "5.1", "nan", "'rough'"})
+    refused("radius = 4", std::string("radius = 4\nfriction = ") + friction, line_of("radius = 4") + 1,
+            "tool[0].friction", {"a number from 0 to 5: Coulomb's coefficient"});
   refused("displacement = [0, 0, -1]", "displacement = 1", line_of("displacement"), "tool[0].displacement",
           {"three finite numbers (mm)"});
   refused("displacement = [0, 0, -1]\n", "", 1, "load", {"[[tool]] with a displacement"});

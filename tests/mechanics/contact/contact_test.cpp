@@ -83,6 +83,65 @@ TEST_CASE("forces of tools are minus the slope of their potential, before and af
   }
 }
 
+TEST_CASE("forces with friction are minus the slope of a potential while its bounds are held") {
+  const cases::tools::Kind shapes[] = {
+      cases::tools::Sphere{3}, cases::tools::Cylinder{3, Vector3d(0.6, 0.8, 0)},
+      cases::tools::Punch{1.3, -Vector3d::UnitZ()}, cases::tools::Plane{Vector3d(0.1, 0, -1).normalized()}};
+  constexpr double h = 1e-6; // mm
+  for (const auto& shape : shapes)
+    for (const double friction : {0.05, 3.}) { // most points slip; most stick
+      const bool is_round = shape.index() < 2;
+      cases::Tool tool = quarter_block::pressed_down(shape, {2.1, 1.4, is_round ? 5. : 2.}, 0.25);
+      tool.friction = friction;
+      Contact contact(mechanics::tool_sides(pressed_box({tool})));
+      const Vector3d first(0.01, 0.02, 0.03), by(-0.02, 0.01, -0.02);
+      contact.augment([&](int) { return first; }, 1);
+      const Pushed here = pushed(contact, by);
+      INFO(cases::name_of(shape) << ", " << friction);
+      for (int c = 0; c < 3; ++c) {
+        const Vector3d to = by + h * Vector3d::Unit(c), from = by - h * Vector3d::Unit(c);
+        const double slope =
+            (contact.energy([&](int) { return to; }, 1) - contact.energy([&](int) { return from; }, 1)) /
+            (2 * h);
+        CHECK(std::abs(slope + here.force[c]) < 1e-6 * here.force.norm());
+        const Vector3d change = (pushed(contact, to).force - pushed(contact, from).force) / (2 * h);
+        CHECK((change + here.tangent.col(c)).norm() < 1e-5 * here.tangent.norm());
+      }
+    }
+}
+
+TEST_CASE("a point sticks by a spring, slips at the bound, and remembers where it stuck") {
+  cases::Tool tool = quarter_block::pressed_down(cases::tools::Plane{-Vector3d::UnitZ()}, {0, 0, 2}, 0.1);
+  tool.region = bodies::region("z+");
+  tool.friction = 0.3;
+  Contact contact(mechanics::tool_sides(pressed_box({tool})));
+  double stiffness = 0; // N/mm, of all points
+  for (const auto& point : contact.sides().front().points) stiffness += point.stiffness;
+  const double bound = 0.3 * stiffness * 0.1;
+  const auto at = [](double x) { return [x](int) -> Vector3d { return {x, 0, 0}; }; };
+  const auto settled_at = [&](double x) { // the force along x
+    CHECK_FALSE(contact.settle(at(x), 1));
+    CHECK(contact.settle(at(x), 1));
+    return contact.found(at(x), 1).front().force.x();
+  };
+  CHECK(contact.found(at(0.01), 1).front().force.x() == 0); // no bound is known yet
+  CHECK(settled_at(0.01) == Approx(-stiffness * 0.01));
+  contact.end_step(at(0.01), 1);
+  CHECK(contact.found(at(0.02), 1).front().force.x() == Approx(-stiffness * 0.02));
+  CHECK(contact.found(at(1), 1).front().force.x() == Approx(-bound));
+  CHECK(contact.found(at(0.01), 1).front().force.x() == Approx(-stiffness * 0.01)); // no end of a step
+  contact.end_step(at(1), 1);
+  CHECK(contact.found(at(1), 1).front().force.x() == Approx(-bound));
+  CHECK(contact.found(at(0.99), 1).front().force.x() == Approx(stiffness * 0.01 - bound));
+  CHECK(contact.found(at(0), 1).front().force.x() == Approx(bound));
+  const auto away = [](int) -> Vector3d { return {1, 0, -1}; };
+  CHECK_FALSE(contact.settle(away, 1));
+  CHECK(contact.found(away, 1).front().force.norm() == 0);
+  contact.forget();
+  CHECK(contact.found(at(1), 1).front().force.x() == 0);
+  CHECK(settled_at(1) == Approx(-bound));
+}
+
 TEST_CASE("a multiplier takes the pressure's value, and a point that leaves is pressed no more") {
   const cases::Tool tool =
       quarter_block::pressed_down(cases::tools::Plane{-Vector3d::UnitZ()}, {0, 0, 2}, 0.1);
