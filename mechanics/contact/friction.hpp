@@ -8,7 +8,7 @@ namespace springproof::mechanics {
 struct Grip {
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< mm, as seen from the tool: where the last step ended
   Eigen::Vector3d held = Eigen::Vector3d::Zero();    ///< N: the friction there; in statics a multiplier
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< of the plane in which it acts, of unit length
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< unit normal of the plane in which it acts
   double bound = 0;                                  ///< N: coefficient times the force along the normal
 };
 

@@ -16,7 +16,7 @@ using WholePoints = std::vector<WholePoint>;
 /// Hooke's springs that have no node in common, with their multipliers.
 struct alignas(32) FourSprings {
   double stiffness[4], rest_length[4], multiplier[4]; // N/mm, mm, N
-  double mobility[2][4]; ///< of their nodes, mm/N, where a node's is the same in all directions
+  double mobility[2][4]; ///< nodes' D^-1, mm/N, where it is the same in all directions
   int nodes[2][4];
 };
 

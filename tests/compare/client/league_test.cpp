@@ -155,7 +155,7 @@ TEST_CASE("the parts of an error in a league add up to it") {
       CHECK(std::abs(row.parts->iterations.percent.value()) < 1);
     if (row.model == "elements") {
       ++n_of_elements;
-      const compare::JudgedRow& solved = table.cases.at(0).rows.front(); // of another law, on the same mesh
+      const compare::JudgedRow& solved = table.cases.at(0).rows.front(); // by another law, on the same mesh
       CHECK(row.parts->mesh.percent.value() == Approx(*solved.worst).epsilon(1e-3));
       CHECK(row.parts->law.percent.value() != 0.);
       CHECK(std::abs(row.parts->iterations.percent.value()) < 1);
