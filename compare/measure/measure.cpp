@@ -30,11 +30,9 @@ double component_of(const Vector3d& vector, cases::Component component) {
 double of_nodes(const measures::Coordinate& measure, const Points& x, const Points& u) {
   return Vector3d(x[0] + u[0])[static_cast<int>(measure.axis)];
 }
-
 double of_nodes(const measures::Displacement& measure, const Points&, const Points& u) {
   return component_of(u[0], measure.component);
 }
-
 double of_nodes(const measures::Tilt& measure, const Points& x, const Points& u) {
   const Vector3d edge = Vector3d(x[0] + u[0]) - Vector3d(x[1] + u[1]); // from bottom to top
   return degrees_per_radian *

@@ -76,8 +76,8 @@ class DynamicProblem : public NonlinearProblem {
   /// Sets the step of all later evaluations. What the terms refer to must live until the next call.
   virtual void set_step(const StepTerms& terms) = 0;
 
-  /// Makes a material's memory that of a body that has always been at this displacement, and friction's that
-  /// of a body at rest.
+  /// Makes a material's memory that of a body that has always been at this displacement. Friction takes the
+  /// body to be at rest.
   virtual void begin_motion(const Vector& /*displacement*/) {}
   /// Brings what a step's equation holds, the bounds of friction, to its solution.
   /// @return whether they agreed; otherwise the equation is another one now

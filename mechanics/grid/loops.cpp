@@ -1,11 +1,5 @@
+#include "mechanics/grid/clones.hpp"
 #include "mechanics/grid/field.hpp"
-
-// Without fused multiply-add, which rounds otherwise. Clang compiles the sanitized build alone.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
-#define SPRINGPROOF_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define SPRINGPROOF_CLONES
-#endif
 
 namespace springproof::mechanics::grid {
 

@@ -1,13 +1,7 @@
 #include "msm/real_time/hooke_springs.hpp"
 
+#include "mechanics/grid/clones.hpp"
 #include "mechanics/numbers.hpp"
-
-// Without fused multiply-add, which rounds otherwise. Clang compiles the sanitized build alone.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
-#define SPRINGPROOF_CLONES __attribute__((target_clones("avx2", "default")))
-#else
-#define SPRINGPROOF_CLONES
-#endif
 
 namespace springproof::msm {
 

@@ -163,8 +163,8 @@ def main():
     if find_chromium():
         check_page(out / "dossier.html", document)
 
-    # Data without an uncertainty, inputs without one, and a limit that is not asked for are missing, and the sum says so. A missed gate
-    # of the case fails the command, and says which.
+    # Data without an uncertainty, inputs without one, and a limit that is not asked for are missing, and the sum says so. A
+    # case's missed gate fails the command, and says which.
     data.write_text("stretch\n0.09\n")
     case.write_text(CASE.replace("[-20, 20]", "[90, 91]"))
     done = run(springproof, case, "--out", folder / "missed", "--measured", data, "--set", "fem.accuracy='none'")

@@ -188,7 +188,7 @@ TEST_CASE("GetFEM's pressure jumps between two layers that keep their volume, by
                   R"(load=[{region="z+",kind="traction",value=[0,0,0.3]}])",
                   R"(measure=[{name="everywhere",kind="displacement_field_l2"}])"});
   };
-  const auto modulus = [](double youngs, double ratio) { // of a pull between the walls
+  const auto modulus = [](double youngs, double ratio) { // a pull's between the walls
     return youngs * (1 - ratio) / ((1 + ratio) * (1 - 2 * ratio));
   };
   for (const std::string formulation : {"small_strain", "log_strain"}) {

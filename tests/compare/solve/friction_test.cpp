@@ -161,7 +161,7 @@ TEST_CASE("a block on a belt is sped up by the coefficient times gravity, until 
   const double slips_for = speed / (friction * gravity); // s
   REQUIRE(slips_for < 0.6 * end);
   const cases::Mesh& mesh = all.scene.mesh;
-  std::vector<double> share(mesh.nodes.size(), 0); // of the mass
+  std::vector<double> share(mesh.nodes.size(), 0); // parts of the mass
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (const int node : mesh.cells[c]) share[cases::index(node)] += 1. / 64;
   for (const Answer* answer : {&all.fem, &all.msm}) {

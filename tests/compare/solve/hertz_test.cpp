@@ -66,7 +66,7 @@ TEST_CASE("a sphere on a half space meets Hertz's force at the finite elements' 
   const double coarse = fem_force(definition, {1. / 4, 6, 8, 2}) / hertz(),
                fine = fem_force(definition, {1. / 4, 6, 16, std::sqrt(2.)}) / hertz();
   CHECK(fine < coarse);
-  CHECK((4 * fine - coarse) / 3 == Approx(1).epsilon(0.01)); // of second order in the cells
+  CHECK((4 * fine - coarse) / 3 == Approx(1).epsilon(0.01)); // second order in the cells
 }
 
 TEST_CASE("springs of cubes, eight to a contact radius, have the force of finite elements to 5 %",
