@@ -3,10 +3,12 @@
 #include "cases/case/elements.hpp"
 #include "cases/case/names.hpp"
 #include "cases/scene/loads.hpp"
+#include "compare/peers/calculix_tool.hpp"
 #include "compare/provenance/call_program.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/ranks.hpp"
 #include "compare/solve/solve.hpp"
+#include "mechanics/contact/contact.hpp"
 #include "msm/lattice.hpp"
 #include "msm/problem.hpp"
 
@@ -60,14 +62,15 @@ std::string last_error(std::istream& in) {
 struct CalculixRun {
   cases::Scene refined; ///< what it solved
   std::vector<CalculixOutput> blocks;
-  int newton_iterations; ///< in all increments
-  std::string error;     ///< the last that it printed
+  std::vector<Vector3d> on_tools; ///< forces on the nodes of all tools, one tool after the other, N
+  int newton_iterations;          ///< in all increments
+  std::string error;              ///< the last that it printed
 };
 
 /// Runs CalculiX.  @return nothing when there is no `ccx`   @throws SolveError when it stops
 std::optional<CalculixRun> run_calculix(const cases::Scene& scene,
                                         void (*write_input)(std::ostream&, const cases::Scene&)) {
-  CalculixRun run{cases::refine(scene, scene.definition.fem.refine), {}, 0, ""};
+  CalculixRun run{cases::refine(scene, scene.definition.fem.refine), {}, {}, 0, ""};
   const ScratchFolder scratch("ccx");
   write_file(scratch.path() / "case.inp", [&](std::ostream& out) { write_input(out, run.refined); });
   const auto end = call_program(
@@ -78,6 +81,8 @@ std::optional<CalculixRun> run_calculix(const cases::Scene& scene,
   std::ifstream data(scratch.path() / "case.dat"), progress(scratch.path() / "case.sta");
   if (end->status != 0 || !data) throw cases::SolveError("CalculiX stopped: " + run.error);
   run.blocks = read_calculix_blocks(data, run.refined.mesh.nodes.size());
+  std::ifstream again(scratch.path() / "case.dat");
+  run.on_tools = read_calculix_tool_forces(again, run.refined.mesh.nodes.size());
   run.newton_iterations = count_iterations(progress);
   return run;
 }
@@ -137,11 +142,26 @@ std::optional<std::string> reason_without_calculix_motion(const cases::Case& def
   return std::nullopt;
 }
 
+/// Why CalculiX cannot have a case's tools.
+std::optional<std::string> reason_without_contact(const cases::Case& definition) {
+  if (definition.tools.empty()) return std::nullopt;
+  if (definition.dynamics)
+    return fmt::format("[[tool]] \"{}\" moves in time, and its contact is at rest",
+                       definition.tools.front().name);
+  for (const cases::Tool& tool : definition.tools)
+    if (tool.friction > 0)
+      return fmt::format("[[tool]] \"{}\" has friction, and its input has none", tool.name);
+  if (cases::facts_of(definition.fem.element).degree > 1)
+    return fmt::format("its contact of nodes with tools is for elements q1 and p1, not {}",
+                       cases::name_of(definition.fem.element));
+  return std::nullopt;
+}
+
 } // namespace
 
 std::optional<std::string> reason_without_calculix(const cases::Case& definition) {
   if (!definition.moved.empty()) return "its input has no moved regions";
-  if (!definition.tools.empty()) return "its input has no tools";
+  if (const auto reason = reason_without_contact(definition)) return reason;
   if (definition.dynamics) return reason_without_calculix_motion(definition);
   if (std::any_of(definition.loads.begin(), definition.loads.end(),
                   [](const cases::Load& load) { return load.on() == cases::loads::On::masses; }))
@@ -197,7 +217,45 @@ std::vector<CalculixOutput> read_calculix_blocks(std::istream& in, std::size_t n
   return blocks;
 }
 
+std::vector<Vector3d> read_calculix_tool_forces(std::istream& in, std::size_t n_nodes) {
+  std::vector<Vector3d> forces;
+  bool is_of_forces = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.find(" for set ") != std::string::npos) is_of_forces = line.find("forces") != std::string::npos;
+    const auto entry = is_of_forces ? read_node_line(line) : std::nullopt;
+    if (!entry || entry->first <= n_nodes) continue;
+    const std::size_t at = entry->first - n_nodes - 1;
+    if (forces.size() <= at) forces.resize(at + 1, Vector3d::Zero());
+    forces[at] = entry->second / calculix_force_unit;
+  }
+  return forces;
+}
+
 namespace {
+
+/// What tools do to the body: forces and torques as CalculiX has them on the tools' nodes, areas and depths
+/// by our own shapes where its body is.
+std::vector<cases::ToolContact> tools_of(const CalculixRun& run, const std::vector<Vector3d>& displacement) {
+  if (run.refined.definition.tools.empty()) return {};
+  const mechanics::Contact contact(mechanics::tool_sides(run.refined));
+  auto found = contact.found([&](int node) { return displacement[cases::index(node)]; }, 1);
+  std::size_t first = 0;
+  for (std::size_t t = 0; t < found.size(); ++t) {
+    const cases::Tool& tool = run.refined.definition.tools[t];
+    const ToolMesh mesh = mesh_of_tool(run.refined, tool);
+    cases::ToolContact& here = found[t];
+    here.force = here.torque = Vector3d::Zero();
+    here.nodes.clear();
+    here.on_nodes.clear();
+    for (std::size_t n = 0; n < mesh.nodes.size() && first + n < run.on_tools.size(); ++n) {
+      const Vector3d& force = run.on_tools[first + n];
+      here.force += force;
+      here.torque += (mesh.nodes[n] - tool.place(0)).cross(force);
+    }
+    first += mesh.nodes.size();
+  }
+  return found;
+}
 
 cases::Solution follow_with_calculix(const cases::Scene& scene) {
   cases::Solution solution;
@@ -250,6 +308,7 @@ cases::Solution solve_with_calculix(const cases::Scene& scene) {
   solution.load_reached = 1;
   // Refinement keeps the numbers of the body's own nodes.
   solution.displacement = output.displacement;
+  solution.tools = tools_of(*run, output.displacement);
   solution.displacement.resize(scene.mesh.nodes.size());
   msm::measure_cells(scene.mesh, solution);
   solution.cell_volume = body_cell_volumes(scene, run->refined, output.displacement);

@@ -3,8 +3,12 @@
 
 #include "cases/case/elements.hpp"
 #include "cases/scene/loads.hpp"
+#include "cases/scene/tools.hpp"
+#include "compare/peers/calculix_tool.hpp"
+#include "mechanics/contact/contact.hpp"
 
 #include <fmt/ostream.h>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -14,21 +18,19 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// CalculiX takes a residual below 1e-6 for zero, in whatever unit. Forces in millionths of a newton (and
-/// moduli likewise) put that far below what its convergence is controlled by; displacements do not change.
-constexpr double force_unit = 1e6;
-
 /// Fields of CalculiX's input are 20 characters wide at most.
 std::string number(double value) {
   return fmt::format("{:.12e}", value);
 }
 
+/// A node's number and place, as a line of the input.
+void write_node(std::ostream& out, std::size_t number_of_node, const Vector3d& x) {
+  fmt::print(out, "{}, {}, {}, {}\n", number_of_node, number(x[0]), number(x[1]), number(x[2]));
+}
+
 void write_nodes(std::ostream& out, const cases::Mesh& mesh) {
   fmt::print(out, "*NODE, NSET=NALL\n");
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    const Vector3d& x = mesh.nodes[n];
-    fmt::print(out, "{}, {}, {}, {}\n", n + 1, number(x[0]), number(x[1]), number(x[2]));
-  }
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) write_node(out, n + 1, mesh.nodes[n]);
 }
 
 void write_cells(std::ostream& out, const char* type, const std::vector<std::vector<int>>& nodes_of_cells) {
@@ -91,10 +93,10 @@ void write_model(std::ostream& out, const cases::Scene& scene) {
   else
     write_cells(out, scene.mesh.shape == cases::CellShape::tetrahedron ? "C3D4" : "C3D8",
                 linear_cells(scene.mesh));
-  fmt::print(out, "*MATERIAL, NAME=TISSUE\n*ELASTIC\n{}, {}\n", number(force_unit * material.youngs_modulus),
-             number(material.poissons_ratio));
+  fmt::print(out, "*MATERIAL, NAME=TISSUE\n*ELASTIC\n{}, {}\n",
+             number(calculix_force_unit * material.youngs_modulus), number(material.poissons_ratio));
   if (const double density = cases::dynamics_of(scene, 0).density; density > 0)
-    fmt::print(out, "*DENSITY\n{}\n", number(force_unit * density));
+    fmt::print(out, "*DENSITY\n{}\n", number(calculix_force_unit * density));
   fmt::print(out, "*SOLID SECTION, ELSET=EALL, MATERIAL=TISSUE\n");
   fmt::print(out, "*BOUNDARY\n");
   const std::vector<bool> constrained = cases::constrained_dofs(halved);
@@ -134,7 +136,81 @@ void write_forces(std::ostream& out, const cases::Scene& scene) {
                                            : cases::nodal_forces(scene);
   for (std::size_t n = 0; n < forces.size(); ++n)
     for (int a = 0; a < 3; ++a)
-      if (forces[n][a] != 0) fmt::print(out, "{}, {}, {}\n", n + 1, a + 1, number(force_unit * forces[n][a]));
+      if (forces[n][a] != 0)
+        fmt::print(out, "{}, {}, {}\n", n + 1, a + 1, number(calculix_force_unit * forces[n][a]));
+}
+
+/// Sides of linear cells by their vertices' places in the cell, in CalculiX's order: S1, S2 ...
+std::vector<std::vector<std::size_t>> sides_of_cells(cases::CellShape shape) {
+  if (shape == cases::CellShape::tetrahedron) return {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  return {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
+}
+
+/// The surface that a tool may touch, by cells and their sides.
+void write_touched_surface(std::ostream& out, const cases::Scene& scene, const cases::Tool& tool) {
+  std::set<std::set<int>> touched;
+  for (const cases::FaceNodes& face : cases::touched_faces(scene, tool))
+    touched.emplace(face.begin(), face.end());
+  const auto sides = sides_of_cells(scene.mesh.shape);
+  const auto cells = linear_cells(scene.mesh);
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+      std::set<int> side;
+      for (const std::size_t v : sides[s]) side.insert(cells[c][v]);
+      if (touched.count(side) > 0) fmt::print(out, "{}, S{}\n", c + 1, s + 1);
+    }
+}
+
+/// Penalty of a contact, MPa/mm: that of a motion, which nothing corrects either.
+double contact_penalty(const cases::Scene& scene, const cases::Tool& tool) {
+  constexpr double over_that_at_rest = 10;
+  double smallest = std::numeric_limits<double>::infinity(); // of a side's square
+  for (const cases::FaceNodes& face : cases::touched_faces(scene, tool))
+    for (const auto& [a, b] : cases::sides_of(face))
+      smallest = std::min(
+          smallest, (scene.mesh.nodes[cases::index(a)] - scene.mesh.nodes[cases::index(b)]).squaredNorm());
+  return over_that_at_rest *
+         mechanics::Contact::penalty(mechanics::contact_modulus(scene), std::sqrt(smallest));
+}
+
+/// Tools after the body, and which surfaces they meet without friction.
+void write_tools(std::ostream& out, const cases::Scene& scene) {
+  std::size_t node = scene.mesh.nodes.size() + 1, cell = scene.mesh.cells.size() + 1;
+  for (std::size_t t = 0; t < scene.definition.tools.size(); ++t) {
+    const cases::Tool& tool = scene.definition.tools[t];
+    const ToolMesh mesh = mesh_of_tool(scene, tool);
+    if (mesh.cells.empty()) continue;
+    const std::size_t first = node, first_cell = cell;
+    fmt::print(out, "*NODE, NSET=NTOOL{}\n", t);
+    for (const Vector3d& place : mesh.nodes) write_node(out, node++, place);
+    fmt::print(out, "*ELEMENT, TYPE=C3D8, ELSET=ETOOL{}\n", t);
+    for (const auto& vertices : mesh.cells) {
+      fmt::print(out, "{}", cell++);
+      for (const int vertex : vertices) fmt::print(out, ", {}", first + cases::index(vertex));
+      fmt::print(out, "\n");
+    }
+    fmt::print(out, "*SOLID SECTION, ELSET=ETOOL{}, MATERIAL=TISSUE\n*SURFACE, NAME=BODY{}\n", t, t);
+    write_touched_surface(out, scene, tool);
+    fmt::print(out, "*SURFACE, NAME=TOOL{}\n", t);
+    for (std::size_t c = first_cell; c < cell; ++c) fmt::print(out, "{}, S1\n", c);
+    const double stress_unit = calculix_force_unit * mechanics::contact_modulus(scene);
+    fmt::print(
+        out,
+        "*SURFACE INTERACTION, NAME=CONTACT{}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{}, {}\n"
+        "*CONTACT PAIR, INTERACTION=CONTACT{}, TYPE=NODE TO SURFACE\nBODY{}, TOOL{}\n",
+        t, number(calculix_force_unit * contact_penalty(scene, tool)), number(1e-5 * stress_unit), t, t, t);
+  }
+}
+
+/// Where tools go in a step, and the forces on their nodes.
+void write_ways_of_tools(std::ostream& out, const cases::Scene& scene) {
+  for (std::size_t t = 0; t < scene.definition.tools.size(); ++t) {
+    if (mesh_of_tool(scene, scene.definition.tools[t]).cells.empty()) continue;
+    fmt::print(out, "*BOUNDARY\n");
+    const Vector3d& way = scene.definition.tools[t].displacement;
+    for (int a = 0; a < 3; ++a) fmt::print(out, "NTOOL{0}, {1}, {1}, {2}\n", t, a + 1, number(way[a]));
+    fmt::print(out, "*NODE PRINT, NSET=NTOOL{}, FREQUENCY=100000\nRF\n", t);
+  }
 }
 
 } // namespace
@@ -162,17 +238,21 @@ void write_calculix_motion_input(std::ostream& out, const cases::Scene& scene) {
 
 void write_calculix_input(std::ostream& out, const cases::Scene& scene) {
   const bool is_nonlinear = scene.definition.fem.formulation == cases::Formulation::saint_venant_kirchhoff;
+  const std::vector<cases::Tool>& tools = scene.definition.tools;
   write_model(out, scene);
-  // Newton's method starts with the full load (CalculiX halves it when it must) and goes on until residual
-  // and correction are 1e-8 of what they are measured against: its default, half a per cent, is far above the
-  // digits it prints.
-  if (is_nonlinear)
-    fmt::print(out, "*STEP, NLGEOM, INC=1000\n*CONTROLS, PARAMETERS=FIELD\n1e-8, 1e-8, , , 1e-8, 1e-8\n"
-                    "*STATIC\n1., 1.\n");
-  else
-    fmt::print(out, "*STEP\n*STATIC\n");
+  write_tools(out, scene);
+  fmt::print(out, "*STEP{}, INC=1000\n", is_nonlinear ? ", NLGEOM" : "");
+  // Newton's method starts with the full load (CalculiX halves it when it must), with tools with the steps
+  // that they ask for, and goes on until residual and correction are 1e-8 of what they are measured against:
+  // its default, half a per cent, is far above the digits it prints.
+  if (is_nonlinear || !tools.empty())
+    fmt::print(out, "*CONTROLS, PARAMETERS=FIELD\n1e-8, 1e-8, , , 1e-8, 1e-8\n");
+  int n_steps = tools.empty() ? 1 : 2;
+  for (const cases::Tool& tool : tools) n_steps = std::max(n_steps, tool.steps);
+  fmt::print(out, "*STATIC\n{}, 1.\n", number(1. / n_steps));
   fmt::print(out, "*CLOAD\n");
   write_forces(out, scene);
+  write_ways_of_tools(out, scene);
   fmt::print(out, "*NODE PRINT, NSET=NALL, FREQUENCY=100000\nU\n*END STEP\n");
 }
 

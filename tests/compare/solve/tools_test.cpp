@@ -5,7 +5,6 @@
 #include "compare/export/export_springs.hpp"
 #include "compare/gates/comparison.hpp"
 #include "compare/modes/modes.hpp"
-#include "compare/peers/calculix.hpp"
 #include "compare/peers/getfem.hpp"
 #include "compare/solve/solve.hpp"
 #include "msm/model.hpp"
@@ -164,7 +163,6 @@ TEST_CASE("what knows no tools refuses a case with one, or says why it is skippe
   CHECK_THROWS_WITH(study_vibrations(scene, {}, 1), Contains("tool[0]: must be left out beside eigen"));
   CHECK_THROWS_WITH(msm::Model(scene, msm::SpringBody{}, {msm::Path::multigrid}),
                     Contains("a case without tools"));
-  CHECK(reason_without_calculix(definition) == "its input has no tools");
   CHECK(reason_without_getfem(scene) ==
         "[[tool]] \"tool\" presses on the body, and its input has no contact");
 }
