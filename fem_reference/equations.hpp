@@ -138,6 +138,10 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
     return !contact_ || contact_->settle(displacements(at), step_->time);
   }
 
+  bool is_way_open(double from_time, const State& from, const State& to) const override {
+    return !contact_ || contact_->is_way_open(displacements(from), from_time, displacements(to), step_->time);
+  }
+
   std::vector<cases::ToolContact> tools_at(double time, const State& at) const override;
 
   /// See Assembly.

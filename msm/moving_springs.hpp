@@ -186,6 +186,10 @@ class MovingSprings : public mechanics::DynamicProblem {
   bool settle(const Vector& at) override {
     return !contact_ || contact_->settle(displacements(at), terms_->time);
   }
+  bool is_way_open(double from_time, const Vector& from, const Vector& to) const override {
+    return !contact_ ||
+           contact_->is_way_open(displacements(from), from_time, displacements(to), terms_->time);
+  }
   void end_step(const Vector& at, double /*length*/) override {
     if (!contact_) return;
     largest_press_ = std::max(largest_press_, size_of_press(at));

@@ -21,6 +21,7 @@ namespace {
 constexpr int most_augmentations = 50;
 constexpr double allowed_misfit = 1e-3;   ///< relative to the indentation
 constexpr double allowed_friction = 1e-6; ///< relative to the sum of the points' bounds
+constexpr double allowed_passage = 0.05;  ///< of a point's way through a tool, relative to a face's side
 
 double modulus_of(const cases::LinearElastic& material) {
   return material.youngs_modulus;
@@ -206,6 +207,28 @@ bool Contact::has_friction() const {
   return std::any_of(grips_.begin(), grips_.end(), [](const auto& of_tool) { return !of_tool.empty(); });
 }
 
+bool Contact::is_way_open(const DisplacementAt& from, double load_from, const DisplacementAt& to,
+                          double load_to) const {
+  constexpr int n_places = 16; // on a way
+  for (const auto& [tool, points] : sides_) {
+    const Vector3d before = tool.place(load_from), after = tool.place(load_to);
+    for (const SurfacePoint& point : points) {
+      const Vector3d begin = point.rest + from(point.node) - before,
+                     end = point.rest + to(point.node) - after;
+      const auto distance = [&](double part) {
+        return signed_distance(tool.shape, begin + part * (end - begin)).value;
+      };
+      const double at_begin = distance(0), at_end = distance(1),
+                   allowed = std::min({0., at_begin, at_end}) - allowed_passage * std::sqrt(point.area);
+      // no place between is nearer to the tool than this
+      if ((at_begin + at_end - (end - begin).norm()) / 2 >= allowed) continue;
+      for (int n = 1; n < n_places; ++n)
+        if (distance(n / static_cast<double>(n_places)) < allowed) return false;
+    }
+  }
+  return true;
+}
+
 std::vector<cases::ToolContact> Contact::found(const DisplacementAt& displacement, double load_factor) const {
   std::vector<cases::ToolContact> all(sides_.size());
   for_each_point(displacement, load_factor, [&](const Touch& touch) {
@@ -322,13 +345,17 @@ Equilibrium find_equilibrium_in_contact(NonlinearProblem& problem, Contact* cont
                                         const Vector& start, const std::string& name,
                                         const EquilibriumSettings& settings) {
   if (!contact) return find_equilibrium(problem, start, name, settings);
+  EquilibriumSettings part = settings; // a load step's with friction, else the whole way's
+  part.is_way_open = [&](const Vector& from, double load_from, const Vector& to, double load_to) {
+    return contact->is_way_open(displacement_of(from), load_from, displacement_of(to), load_to);
+  };
   if (!contact->has_friction())
-    return find_settled_equilibrium(problem, *contact, displacement_of, start, name, settings);
+    return find_settled_equilibrium(problem, *contact, displacement_of, start, name, part);
   const int n_steps = std::max(1, static_cast<int>(std::ceil(1 / settings.largest_load_step - 1e-9)));
   const auto load = [&](int step) {
     return step == n_steps ? settings.to : settings.from + step * (settings.to - settings.from) / n_steps;
   };
-  EquilibriumSettings part = settings; // a load step's, which may be divided where Newton's method fails
+  // A step may be divided where Newton's method fails.
   part.first_load_step = part.largest_load_step = 1;
   part.smallest_load_step = std::min(n_steps * settings.smallest_load_step, 1. / 16);
   part.guess.reset();

@@ -93,6 +93,12 @@ class Contact {
     ++revision_;
   }
   bool has_friction() const;
+  /// Whether every point goes from one state to another on the outside of the tools. A step that takes a
+  /// point deeper into a tool than to another of its sides leads to an equilibrium in which it came out
+  /// there: its straight way, as the tool sees it, is inside by more than a twentieth of a face's side and
+  /// than its ends.
+  bool is_way_open(const DisplacementAt& from, double load_from, const DisplacementAt& to,
+                   double load_to) const;
   /// Counts the changes of multipliers.
   int revision() const { return revision_; }
 

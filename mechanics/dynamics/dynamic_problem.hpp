@@ -82,6 +82,10 @@ class DynamicProblem : public NonlinearProblem {
   /// Brings what a step's equation holds, the bounds of friction, to its solution.
   /// @return whether they agreed; otherwise the equation is another one now
   virtual bool settle(const Vector& /*solution*/) { return true; }
+  /// Whether a step may go from one displacement to another; one whose way is not open is halved.
+  virtual bool is_way_open(double /*from_time*/, const Vector& /*from*/, const Vector& /*to*/) const {
+    return true;
+  }
   /// Takes a step into that memory.
   /// @param displacement  mm, at the step's end    @param length  s
   virtual void end_step(const Vector& /*displacement*/, double /*length*/) {}

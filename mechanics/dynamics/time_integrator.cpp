@@ -159,7 +159,10 @@ bool TimeIntegrator::find_place() {
       failure_ = newton_.failure();
       return false;
     }
-    if (problem_.settle(place_)) return true;
+    if (!problem_.settle(place_)) continue;
+    if (problem_.is_way_open(now_.time, now_.displacement, place_)) return true;
+    failure_ = "a node goes through a tool in one step";
+    return false;
   }
   failure_ = "the friction of the tools does not settle";
   return false;

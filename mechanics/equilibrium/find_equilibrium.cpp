@@ -43,6 +43,7 @@ class PathFollower {
   Vector now_, previous_;    ///< the last two equilibria on the path
   double previous_step_ = 0; ///< way between them; 0: there is only one
   int inverted_ = 0;         ///< inverted cells at now_
+  bool is_blocked_ = false;  ///< the last step failed because its way was not open
 
   double load(double way) const { return settings_.from + way * (settings_.to - settings_.from); }
 
@@ -99,11 +100,14 @@ class PathFollower {
   /// Tries one load step. On success the path goes on from its end.
   bool attempt(Vector trial, double target, Convexity fallback, int iteration_factor = 1) {
     const int left_convexity = result_.escapes + result_.convexified_steps;
+    is_blocked_ = false;
     if (!newton_.solve(trial, load(target), fallback, iteration_factor)) return false;
     if (settings_.stability == Stability::require && !settle(trial, load(target))) return false;
     const int inverted = problem_.n_inverted(trial);
     const bool may_have_jumped = result_.escapes + result_.convexified_steps > left_convexity;
     if (inverted > inverted_ && may_have_jumped) return false;
+    is_blocked_ = settings_.is_way_open && !settings_.is_way_open(now_, load(reached_), trial, load(target));
+    if (is_blocked_) return false;
     previous_ = std::exchange(now_, std::move(trial));
     previous_step_ = target - reached_;
     inverted_ = inverted;
@@ -174,6 +178,7 @@ class PathFollower {
   /// Reports a limit point if every equilibrium was stable; otherwise the cause is not known.
   [[noreturn]] void give_up_path() {
     const std::string reason = "no equilibrium was found beyond this load";
+    if (is_blocked_) give_up(reason + ": in the shortest load step a node still goes through a tool");
     if (settings_.stability == Stability::require) give_up(reason, cases::Outcome::limit_point);
     give_up(reason + ": " + newton_.failure());
   }

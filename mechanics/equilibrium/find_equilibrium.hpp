@@ -35,6 +35,10 @@ struct EquilibriumSettings {
   LowestEigenvalue lowest_eigenvalue = LowestEigenvalue::skip;
   Stability stability = Stability::require;
   std::optional<Vector> guess = {}; ///< state at full load to try first
+  /// Asked before a load step is taken, with the states and load factors at its ends. A step whose way is not
+  /// open is halved. Empty: every way is.
+  std::function<bool(const Vector& from, double load_from, const Vector& to, double load_to)> is_way_open =
+      {};
 };
 
 struct Equilibrium {

@@ -44,7 +44,7 @@ const std::string
     cylinder = "shape = 'cylinder'\ncentre = [0, 0, 18]\nradius = 10\naxis = [0.6, 0.8, 0]\n"
                "displacement = [0, 0, -1.5]\n",
     punch = "shape = 'punch'\ncentre = [0, 0, 8]\nradius = 5\naxis = [0, 0, -1]\n"
-            "displacement = [0, 0, -0.8]\nsteps = 4\n";
+            "displacement = [0, 0, -0.8]\n";
 
 constexpr double size = 12;    ///< mm, of the block
 constexpr double bound = 0.01; ///< of forces, and of displacements over the largest

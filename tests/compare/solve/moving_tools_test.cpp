@@ -84,6 +84,21 @@ TEST_CASE("a plane that presses slowly does in the end what it does in statics",
   }
 }
 
+TEST_CASE("a punch that comes in one step presses what it does in short ones", "[verification]") {
+  const auto pressed = [](double step) {
+    return solved(block("[4, 4, 3]", "[4, 4, 3]", rollers,
+                        "shape = 'punch'\ncentre = [0, 0, 3]\nradius = 2.4\naxis = [0, 0, -1]\n"
+                        "displacement = [0, 0, -0.8]\nhistory = { ramp = [0, 0.1] }\n",
+                        fmt::format("damping scheme = 'implicit_euler'\nstep = {}\nend = 1\n", step)));
+  };
+  const Solved once = pressed(0.1), often = pressed(0.00625);
+  for (const auto& [one, other] : {std::pair(once.fem, often.fem), std::pair(once.msm, often.msm)}) {
+    const cases::ToolContact &here = one.solution.tools[0], &there = other.solution.tools[0];
+    CHECK(here.force.z() == Approx(there.force.z()).epsilon(1e-3)); // both are at rest
+    CHECK(here.nodes == there.nodes);
+  }
+}
+
 TEST_CASE("what a tool gives a free body is its momentum", "[verification]") {
   // The plane comes along x, obliquely, and meets an edge of the body, which flies off and turns.
   const std::string plane = "shape = 'plane'\npoint = [-0.2, 0, 0]\nnormal = [1, 0, 0.2]\n"

@@ -119,6 +119,25 @@ TEST_CASE("what every tool does to a block is borne by its floor", "[verificatio
   }
 }
 
+TEST_CASE(
+    "a punch that one load step takes deeper than nodes are from its rim presses them as short steps do",
+    "[verification]") {
+  const auto pressed = [](int steps) {
+    return compared(
+        block(fmt::format("[[tool]]\nname = 'tool'\nshape = 'punch'\ncentre = [0, 0, 3]\nradius = 2.4\n"
+                          "axis = [0, 0, -1]\ndisplacement = [0, 0, -0.8]\nsteps = {}\n",
+                          steps)) +
+        of_tool);
+  };
+  // Nodes are 0.16 and 0.4 mm from the rim.
+  const Comparison once = pressed(1), often = pressed(16);
+  // The surface may be a thousandth of 0.8 mm from the punch.
+  CHECK(value(once, "force").fem == Approx(value(often, "force").fem).epsilon(2e-3));
+  CHECK(value(once, "force").msm == Approx(value(often, "force").msm).epsilon(2e-3));
+  CHECK(value(once, "area").fem == value(often, "area").fem);
+  CHECK(value(once, "area").msm == value(often, "area").msm);
+}
+
 TEST_CASE("tetrahedra are pressed as the same motion of their top presses them", "[verification]") {
   using cases::Element;
   for (const Element element : {Element::p1, Element::p2, Element::p2_p1})

@@ -162,3 +162,21 @@ TEST_CASE("a multiplier takes the pressure's value, and a point that leaves is p
   contact.forget();
   CHECK(contact.found(below, 1).front().force.norm() < 1e-9 * std::abs(force));
 }
+
+TEST_CASE("a way is open outside a tool and into its surface, not through an edge or from side to side") {
+  const auto is_open = [](const cases::tools::Kind& shape, const Vector3d& from, const Vector3d& to) {
+    const mechanics::SurfacePoint point{0, from, 1, 1, Vector3d::UnitZ()}; // of a face with sides of 1 mm
+    const Contact contact({{quarter_block::pressed_down(shape, Vector3d::Zero(), 0), {point}}});
+    return contact.is_way_open([](int) { return Vector3d::Zero(); }, 0,
+                               [&](int) -> Vector3d { return to - from; }, 1);
+  };
+  const cases::tools::Kind punch = cases::tools::Punch{3, -Vector3d::UnitZ()}; // its flat end is at z = 0
+  CHECK(is_open(punch, {2.5, 0, -1}, {2.5, 0, 0}));                            // to the end
+  CHECK(is_open(punch, {2.5, 0, -1}, {2.5, 0, 0.3}));                          // a penalty's way into it
+  CHECK(is_open(punch, {3.5, 0, -1}, {3, 0, 1}));                              // along the side
+  CHECK_FALSE(is_open(punch, {2.5, 0, -1}, {3, 0, 0.8}));                      // through the edge
+  CHECK(is_open(punch, {2.98, 0, -1}, {3, 0, 0.8})); // no deeper than a twentieth of the face's side
+  const cases::tools::Kind ball = cases::tools::Sphere{0.5};
+  CHECK_FALSE(is_open(ball, {0.1, 0, -0.6}, {0.1, 0, 0.5}));
+  CHECK(is_open(ball, {0.3, 0, -0.4}, {0.4, 0, -0.3})); // around it
+}
