@@ -112,7 +112,7 @@ struct VolumeLaw {
 };
 inline VolumeLaw volume_law(double volume_ratio, bool is_logarithmic) {
   const auto of = [&](const auto& law) -> VolumeLaw {
-    return {law.twice_energy(volume_ratio, 1) / 2, law.pressure(volume_ratio, 1),
+    return {law.twice_energy(volume_ratio, 1.0) / 2, law.pressure(volume_ratio, 1),
             law.template slope<Clamp::no>(volume_ratio, 1)};
   };
   return is_logarithmic ? of(LogarithmicVolume<double, Exact>{1}) : of(LinearVolume<double>{1});

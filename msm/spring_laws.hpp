@@ -41,8 +41,9 @@ struct LinearVolume {
   SPRINGPROOF_INLINE Real slope(Real, Real k) const {
     return k;
   }
-  SPRINGPROOF_INLINE Real twice_energy(Real volume, Real k) const {
-    const Real change = volume - rest_volume;
+  template<class P>
+  SPRINGPROOF_INLINE P twice_energy(const P& volume, const P& k) const {
+    const P change = volume - rest_volume;
     return k * change * change;
   }
 };
@@ -52,8 +53,9 @@ template<class Real, class Math>
 struct LogarithmicVolume {
   static constexpr bool is_logarithmic = true;
   Real rest_volume, inverse_rest_volume = 1 / rest_volume;
-  SPRINGPROOF_INLINE Real log_volume(Real volume, Real k) const {
-    return Math::log_volume(volume * inverse_rest_volume, k);
+  template<class P>
+  SPRINGPROOF_INLINE P log_volume(const P& volume, const P& k) const {
+    return Math::log_volume(P(volume * inverse_rest_volume), k);
   }
   SPRINGPROOF_INLINE Real pressure(Real volume, Real k) const {
     return k * rest_volume * log_volume(volume, k);
@@ -64,10 +66,11 @@ struct LogarithmicVolume {
     const Real least = clamp == Clamp::yes ? Real(0.1) : Real(1e-30), ratio = volume * inverse_rest_volume;
     return k / (ratio > least ? ratio : least);
   }
-  SPRINGPROOF_INLINE Real twice_energy(Real volume, Real k) const {
-    const Real log = log_volume(volume, k);
+  template<class P>
+  SPRINGPROOF_INLINE P twice_energy(const P& volume, const P& k) const {
+    const P log = log_volume(volume, k);
     return Real(2) * k * rest_volume * rest_volume * log * log *
-           mechanics::ramp_integral(log, Math::exponential(Real(Math::of_exponential) * log));
+           mechanics::ramp_integral(log, Math::exponential(P(Real(Math::of_exponential) * log)));
   }
 };
 

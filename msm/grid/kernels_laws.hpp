@@ -40,10 +40,11 @@ struct Fast {
   }
   /// NaN where J <= 0, set by its bits, since -ffast-math knows no NaN. Where there is no cell, J is
   /// anything, and k is 0.
-  template<class Real>
-  SPRINGPROOF_INLINE static Real log_volume(Real ratio, Real k) {
-    const Bits<Real> none = ratio > Real(0) || k == Real(0) ? Bits<Real>(0) : ~Bits<Real>(0);
-    return bits_as<Real>(bits_as<Bits<Real>>(Real(2) * half_log(ratio)) | none);
+  template<class P>
+  SPRINGPROOF_INLINE static P log_volume(const P& ratio, const P& k) {
+    const auto is_number = (ratio > P{}) | (k == P{}); // a mask for a pack
+    const Bits<P> none = is_number ? Bits<P>{} : ~Bits<P>{};
+    return bits_as<P>(bits_as<Bits<P>>(RealOf<P>(2) * half_log(ratio)) | none);
   }
 };
 

@@ -38,6 +38,9 @@ template<class Real>
 struct Rows {
   const Real *x, *y, *z;
   SPRINGPROOF_INLINE Vec<Real> at(std::ptrdiff_t i) const { return {x[i], y[i], z[i]}; }
+  SPRINGPROOF_INLINE Vec<Pack<Real>> pack_at(std::ptrdiff_t i) const {
+    return {load(x + i), load(y + i), load(z + i)};
+  }
 };
 template<class Real>
 SPRINGPROOF_INLINE Rows<Real> rows(const Real* field, std::ptrdiff_t array, std::ptrdiff_t offset) {

@@ -55,15 +55,18 @@ void product(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const 
   run(s, slab, displacement, direction, result);
 }
 
-/// One spring of every node of plane k, for loops that the compiler turns into packs.
+/// One spring of every node of plane k.
 template<class Real>
 struct PlaneOfSprings {
   Rows<Real> nodes, others;
   Share<Real> share;
   Vec<Real> rest;
   std::ptrdiff_t in_plane; ///< distance to the other end in its own plane
-  /// The vector from a node to the other end.
-  SPRINGPROOF_INLINE Vec<Real> at(std::ptrdiff_t i) const { return rest + (others.at(i) - nodes.at(i)); }
+  /// The vectors from a pack of nodes to the other ends.
+  SPRINGPROOF_INLINE Vec<Pack<Real>> at(std::ptrdiff_t i) const {
+    using P = Pack<Real>;
+    return Vec<P>{P{} + rest.x, P{} + rest.y, P{} + rest.z} + (others.pack_at(i) - nodes.pack_at(i));
+  }
 };
 template<class Real>
 SPRINGPROOF_INLINE PlaneOfSprings<Real> plane_of_springs(const Springs<Real>& s, int spring, int k,
@@ -78,8 +81,46 @@ SPRINGPROOF_INLINE PlaneOfSprings<Real> plane_of_springs(const Springs<Real>& s,
           in_plane};
 }
 
+template<class P>
+SPRINGPROOF_INLINE RealOf<P> sum_of(const P& pack) {
+  RealOf<P> sum = 0;
+  for (int l = 0; l < pack_size<RealOf<P>>; ++l) sum += pack[l];
+  return sum;
+}
+
+/// Twice the energy of the volume terms and midlines of plane k.
+template<class Real, class Laws>
+Real twice_energy_of_cells(const Springs<Real>& s, const Laws& laws, int k, const Real* displacement) {
+  using P = Pack<Real>;
+  const std::ptrdiff_t n = cells_of_plane(s.layout);
+  const Cells<Real> cells = cells_from(s, displacement, 0, k);
+  P sum{};
+  for (std::ptrdiff_t first = 0; first < n; first += block) {
+    const std::ptrdiff_t length = first + block < n ? block : n - first;
+    Real volumes[block], squared[3][block]; // of the cells, and of their midlines
+#pragma GCC ivdep
+    for (std::ptrdiff_t i = 0; i < length; ++i) {
+      Vec<Real> x[8], g[8], d[3];
+      cells.positions(first + i, x);
+      volume_gradients(x, g);
+      volumes[i] = volume(x, g);
+      fourfold_midlines(x, d);
+      for (int a = 0; a < 3; ++a) squared[a][i] = squared_midline(d[a]);
+    }
+    for (std::ptrdiff_t i = 0; i < length; i += pack_size<Real>) {
+      const P counted = load(s.counted + first + i);
+      sum += laws.volume.twice_energy(load(volumes + i), P(counted * load(cells.stiffness + first + i)));
+      for (int a = 0; a < 3 && s.midline[0]; ++a)
+        sum += laws.spring[edge_along[a]].twice_energy(load(squared[a] + i),
+                                                       P(counted * load(cells.midline[a] + first + i)));
+    }
+  }
+  return sum_of(sum);
+}
+
 template<class Real, class Laws>
 double energy_with(const Springs<Real>& s, const Laws& laws, int first, int last, const Real* displacement) {
+  using P = Pack<Real>;
   const Layout& layout = s.layout;
   const std::ptrdiff_t n = (layout.row * layout.nodes[1] + 15) / 16 * 16;
   double total = 0;
@@ -87,29 +128,15 @@ double energy_with(const Springs<Real>& s, const Laws& laws, int first, int last
     for (int spring = 0; spring < n_springs; ++spring) {
       if (k + spring_steps[spring][2] == layout.nodes[2]) continue;
       const PlaneOfSprings<Real> springs = plane_of_springs(s, spring, k, displacement);
-      Real sum = 0;
-      for (std::ptrdiff_t i = 0; i < n; ++i) {
-        const Vec<Real> d = springs.at(i);
-        sum += laws.spring[spring].twice_energy(squared_length(d), s.counted[i] * springs.share.share[i]);
+      P sum{};
+      for (std::ptrdiff_t i = 0; i < n; i += pack_size<Real>) {
+        sum += laws.spring[spring].twice_energy(squared_length(springs.at(i)),
+                                                P(load(s.counted + i) * load(springs.share.share + i)));
       }
-      total += 0.5 * static_cast<double>(springs.share.scale) * static_cast<double>(sum);
+      total += 0.5 * static_cast<double>(springs.share.scale) * static_cast<double>(sum_of(sum));
     }
-    if (!s.volume_stiffness || k + 1 == layout.nodes[2]) continue;
-    const Cells<Real> cells = cells_from(s, displacement, 0, k);
-    Real sum = 0;
-    for (std::ptrdiff_t i = 0; i < cells_of_plane(layout); ++i) {
-      Vec<Real> x[8], g[8];
-      cells.positions(i, x);
-      volume_gradients(x, g);
-      sum += laws.volume.twice_energy(volume(x, g), s.counted[i] * cells.stiffness[i]);
-      if (!s.midline[0]) continue;
-      Vec<Real> d[3];
-      fourfold_midlines(x, d);
-      for (int a = 0; a < 3; ++a)
-        sum += laws.spring[edge_along[a]].twice_energy(squared_midline(d[a]),
-                                                       s.counted[i] * cells.midline[a][i]);
-    }
-    total += 0.5 * static_cast<double>(sum);
+    if (s.volume_stiffness && k + 1 < layout.nodes[2])
+      total += 0.5 * static_cast<double>(twice_energy_of_cells(s, laws, k, displacement));
   }
   return total;
 }
@@ -134,6 +161,7 @@ SPRINGPROOF_INLINE void add_block(Real transverse, Real along, const Vec<Real>& 
 template<Clamp clamp, class Real, class Laws>
 void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Laws& laws, const Real* displacement,
                    Real* result) {
+  using P = Pack<Real>;
   const Layout& layout = s.layout;
   const auto clear = [](Real* begin, std::ptrdiff_t n) {
     for (std::ptrdiff_t i = 0; i < n; ++i) begin[i] = 0;
@@ -152,17 +180,14 @@ void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Laws& l
       const PlaneOfSprings<Real> springs = plane_of_springs(s, spring, k, displacement);
       for (std::ptrdiff_t first = 0; first < n; first += block) {
         const std::ptrdiff_t length = first + block < n ? block : n - first;
-#pragma GCC ivdep
-        for (std::ptrdiff_t i = 0; i < length; ++i) {
-          const Vec<Real> d = springs.at(first + i);
-          const Real stiffness = springs.share.scale * springs.share.share[first + i];
-          const auto [t, along] = laws.spring[spring].template tangent<clamp>(squared_length(d), stiffness);
-          b[i] = t + along * d.x * d.x;
-          b[i + block] = t + along * d.y * d.y;
-          b[i + 2 * block] = t + along * d.z * d.z;
-          b[i + 3 * block] = along * d.y * d.z;
-          b[i + 4 * block] = along * d.x * d.z;
-          b[i + 5 * block] = along * d.x * d.y;
+        for (std::ptrdiff_t i = 0; i < length; i += pack_size<Real>) {
+          const Vec<P> d = springs.at(first + i);
+          const P stiffness = springs.share.scale * load(springs.share.share + first + i);
+          const SpringTangent<P> tangent =
+              laws.spring[spring].template tangent<clamp>(squared_length(d), stiffness);
+          P blocks[6] = {};
+          add_block(tangent.transverse, tangent.along, d, blocks);
+          for (int c = 0; c < 6; ++c) store(b + i + c * block, blocks[c]);
         }
         for (int c = 0; c < 6; ++c) {
           Real *own = result_plane(layout, slab, result, k, c) + first,
