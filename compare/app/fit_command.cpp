@@ -18,7 +18,7 @@ struct FitOptions {
   FitCases cases;
   std::vector<std::string> free;
   DesignOptions curve; ///< --curve with what its columns are
-  std::string data, law, out;
+  std::string data, law, client, out;
   std::string only = "both";
   int n_terms = 1, n_workers = 0;
   bool json = false;
@@ -45,6 +45,13 @@ std::vector<Fit> fits_of_cases(const FitOptions& options) {
   const FitData data = has_limit
                            ? limits_as_data(options.cases, answer)
                            : read_fit_data(cases::read_text_file(options.data), options.data, options.cases);
+  if (!options.client.empty()) {
+    std::vector<Question> questions;
+    for (const FitState& state : data.states)
+      questions.push_back({scene_of(options.cases, state), Request{cases::Side::msm}});
+    return {fit_cases(options.cases, data, options.data, options.free, cases::Side::msm, answer,
+                      read_client(questions, options.client))};
+  }
   std::vector<Fit> fits;
   for (const cases::Side side : {cases::Side::fem, cases::Side::msm})
     if (options.only == cases::name_of(side) ||
@@ -106,6 +113,12 @@ void add_fit_command(CLI::App& program, Action& chosen) {
   CLI::Option* only = command->add_option("--only", options->only, "fit one model alone")
                           ->check(CLI::IsMember({"fem", "msm", "both"}))
                           ->capture_default_str();
+  CLI::Option* client =
+      command
+          ->add_option("--client", options->client,
+                       "NAME=COMMAND: a program whose parameters are fitted, without derivatives; {NAME} "
+                       "in it is the value of --free client.NAME=START")
+          ->excludes(only);
   CLI::Option* set = add_set_option(*command, options->cases.settings, "KEY=VALUE of the cases");
   CLI::Option* curve = add_curve_options(*command, options->curve);
   CLI::Option* law =
@@ -120,7 +133,7 @@ void add_fit_command(CLI::App& program, Action& chosen) {
       ->needs(law);
   curve->needs(law);
   law->needs(curve);
-  for (CLI::Option* option : {files, to, held_out, free, only, set}) option->excludes(curve);
+  for (CLI::Option* option : {files, to, held_out, free, only, client, set}) option->excludes(curve);
   add_workers_option(*command, options->n_workers);
   command->add_option("--out", options->out, "folder for fit.json and fit.csv");
   add_json_option(*command, options->json);

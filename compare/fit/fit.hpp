@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cases/case/case.hpp"
+#include "compare/client/ask_client.hpp"
 #include "compare/fit/least_squares.hpp"
 #include "compare/solve/solve_jobs.hpp"
 #include "compare/table/json.hpp"
@@ -34,7 +35,7 @@ struct FittedMeasure {
 
 /// What was fitted, and how well.
 struct Fit {
-  std::string model; ///< "springs", "finite elements", or a law's name
+  std::string model; ///< "springs", "finite elements", a client's or a law's name
   std::string data;  ///< name of the data's file, or "limit"
   std::vector<FreeParameter> parameters;
   LeastSquares found;
@@ -42,6 +43,7 @@ struct Fit {
   std::vector<FittedMeasure> measures{}; ///< summaries of the data
   std::size_t n_data = 0;                ///< those that were fitted
   bool has_deviations = false;           ///< the data have their standard deviations
+  std::size_t n_solves = 0;              ///< of cases, or a client's answers; 0: a curve's
   HeldOut held_out{};
   std::vector<std::string>
       settings{}; ///< values for `--set`; empty where the fit has none, or no case takes it
@@ -106,11 +108,25 @@ cases::Scene scene_of(const FitCases& all, const FitState& state,
 /// @param answer  solves questions    @throws InputError for a case whose limit is not found
 FitData limits_as_data(const FitCases& cases, const AnswerQuestions& answer);
 
+/// Whether a free parameter is a client's own, client.NAME: its value takes the place of {NAME} in the
+/// client's command, and no case has such a key.
+bool is_of_client(const std::string& key);
+
+/// Asks a client with values of its own parameters. Springs that cannot be designed for it are a failure.
+Answers ask_with_values(const cases::Scene& scene, const Client& client,
+                        const std::vector<FreeParameter>& parameters, const Eigen::VectorXd& values);
+
+/// @throws InputError for a client.NAME without {NAME} in the client's command, or without a client
+void check_client_parameters(const std::vector<FreeParameter>& parameters,
+                             const std::optional<Client>& client);
+
 /// Fits keys of cases to data, by one model.
 /// @param free  KEY or KEY=START; empty: the moduli of the body's material
+/// @param client  is asked in place of the springs
 /// @throws InputError for a key that is no number in a case, and for data that cannot tell so many keys
 Fit fit_cases(const FitCases& cases, const FitData& data, const std::string& data_name,
-              const std::vector<std::string>& free, cases::Side side, const AnswerQuestions& answer);
+              const std::vector<std::string>& free, cases::Side side, const AnswerQuestions& answer,
+              const std::optional<Client>& client = {});
 
 Json fits_to_json(const std::vector<Fit>& fits);
 void write_fit_text(std::ostream& out, const Fit& fit, bool has_rows = true);

@@ -35,7 +35,8 @@ FreeParameter parameter_of(const std::string& key, double start) {
   if (has("exponent")) return {key, start, -20, 20};
   if (name == "beta") return {key, start, -1e-9, 2};
   if (has("split")) return {key, start, -1e-9, 1}; // 0 is among its values
-  if (start > 0 && (has("modulus") || has("stiffness") || has("damping") || has("density")))
+  if (start > 0 &&
+      (is_of_client(key) || has("modulus") || has("stiffness") || has("damping") || has("density")))
     return {key, start, 0};
   return {key, start};
 }
@@ -82,7 +83,9 @@ std::vector<std::string> values_of(const std::vector<FreeParameter>& parameters,
                                    int digits = 17) {
   std::vector<std::string> settings;
   for (std::size_t p = 0; p < parameters.size(); ++p)
-    settings.push_back(fmt::format("{}={:.{}g}", parameters[p].name, values[static_cast<Index>(p)], digits));
+    if (!is_of_client(parameters[p].name))
+      settings.push_back(
+          fmt::format("{}={:.{}g}", parameters[p].name, values[static_cast<Index>(p)], digits));
   return settings;
 }
 
@@ -149,9 +152,9 @@ Observations observations_of(const FitData& data, const Layout& layout) {
 class Model {
  public:
   Model(const FitCases& all, const FitData& data, std::vector<FreeParameter> parameters, cases::Side side,
-        const AnswerQuestions& answer)
+        const AnswerQuestions& answer, const std::optional<Client>& client)
       : all_(all), data_(data), layout_(data), parameters_(std::move(parameters)), side_(side),
-        answer_(answer) {}
+        answer_(answer), client_(client) {}
 
   std::vector<Prediction> operator()(const std::vector<VectorXd>& choices) const {
     std::vector<Prediction> predictions(choices.size());
@@ -171,7 +174,13 @@ class Model {
       }
     }
     if (questions.empty()) return predictions;
-    const std::vector<Answers> answers = answer_(questions);
+    std::vector<Answers> answers;
+    if (client_)
+      for (std::size_t q = 0; q < questions.size(); ++q)
+        answers.push_back(
+            ask_with_values(questions[q].scene, *client_, parameters_, choices[of_question[q]]));
+    else
+      answers = answer_(questions);
     for (std::size_t first = 0; first < questions.size(); first += data_.states.size())
       predictions[of_question[first]] = read(&questions[first], &answers[first]);
     return predictions;
@@ -207,6 +216,7 @@ class Model {
   std::vector<FreeParameter> parameters_;
   cases::Side side_;
   const AnswerQuestions& answer_;
+  const std::optional<Client>& client_;
 };
 
 std::string place_of(const FitState& state) {
@@ -319,7 +329,8 @@ FitData limits_as_data(const FitCases& all, const AnswerQuestions& answer) {
 }
 
 Fit fit_cases(const FitCases& all, const FitData& data, const std::string& data_name,
-              const std::vector<std::string>& free, cases::Side side, const AnswerQuestions& answer) {
+              const std::vector<std::string>& free, cases::Side side, const AnswerQuestions& answer,
+              const std::optional<Client>& client) {
   std::vector<FreeParameter> parameters;
   const cases::Case first = cases::read_case(all.files.front(), all.settings);
   for (const std::string& key : free.empty() ? moduli_of(first) : free)
@@ -334,6 +345,7 @@ Fit fit_cases(const FitCases& all, const FitData& data, const std::string& data_
           throw cases::InputError(
               fmt::format("--free: {}: is a column of {}, and cannot be fitted", key, data_name));
   }
+  check_client_parameters(parameters, client);
   const FitData fitted = part_of(data, false), held = part_of(data, true);
   if (held.states.empty() && !all.held_out.empty())
     throw cases::InputError(fmt::format("--hold-out: {} has no data of {}", data_name, all.held_out.front()));
@@ -346,10 +358,14 @@ Fit fit_cases(const FitCases& all, const FitData& data, const std::string& data_
                     "give more data{}",
                     data_name, n, n < parameters.size() ? "at least as many" : "more", parameters.size(),
                     observations.are_measured ? "" : ", or standard deviations in a column sigma"));
-  const LeastSquaresProblem problem(parameters, observations, Model(all, fitted, parameters, side, answer));
+  const LeastSquaresProblem problem(parameters, observations,
+                                    Model(all, fitted, parameters, side, answer, client),
+                                    client ? Smoothness::noisy : Smoothness::smooth);
   for (const FitState& state : data.states) scene_of(all, state, values_of(parameters, problem.start()));
-  Fit fit{side == cases::Side::fem ? "finite elements" : "springs", data_name, parameters,
-          problem.fit(problem.start(), std::vector<bool>(n, true))};
+  Fit fit{client                     ? client->name
+          : side == cases::Side::fem ? "finite elements"
+                                     : "springs",
+          data_name, parameters, problem.fit(problem.start(), std::vector<bool>(n, true))};
   fit.n_data = n;
   fit.has_deviations = observations.are_measured;
   if (!fit.found.has_values()) return fit;
@@ -357,8 +373,9 @@ Fit fit_cases(const FitCases& all, const FitData& data, const std::string& data_
   fit.held_out =
       held.states.empty()
           ? cross_validate(problem, fit.found, groups_of(layout, fitted.states.size()))
-          : predict_held_out(fit, held, Model(all, held, parameters, side, answer), problem.start());
+          : predict_held_out(fit, held, Model(all, held, parameters, side, answer, client), problem.start());
   fit.settings = values_of(parameters, fit.found.parameters, 10);
+  fit.n_solves = problem.n_predicted() * fitted.states.size();
   return fit;
 }
 

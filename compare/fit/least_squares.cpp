@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
+#include <nlopt.h>
 #include <utility>
 
 namespace springproof::compare {
@@ -49,7 +50,15 @@ double half_width_of(bool are_measured, Index degrees_of_freedom) {
   return quantile(boost::math::students_t(static_cast<double>(degrees_of_freedom)), 0.975);
 }
 
+constexpr double smooth_step = 1e-3, largest_step = 0.1;
+
 } // namespace
+
+/// How the search for a minimum has ended.
+struct LeastSquaresProblem::Search {
+  bool is_usable, has_converged;
+  std::string message;
+};
 
 /// The model near some values of the parameters, whose coordinates Ceres changes.
 struct LeastSquaresProblem::Linearised {
@@ -68,7 +77,7 @@ struct LeastSquaresProblem::Cost : ceres::CostFunction {
     const VectorXd weights = problem.data_.deviations(places).cwiseInverse();
     Linearised model;
     if (jacobians && jacobians[0])
-      model = problem.linearise(at);
+      model = problem.linearise(at, smooth_step);
     else
       model.values = problem.predict(problem.unscaled(at)).values;
     if (model.values.size() == 0) return false;
@@ -85,8 +94,9 @@ struct LeastSquaresProblem::Cost : ceres::CostFunction {
 };
 
 LeastSquaresProblem::LeastSquaresProblem(std::vector<FreeParameter> parameters, Observations data,
-                                         Predict predict)
-    : parameters_(std::move(parameters)), data_(std::move(data)), predict_(std::move(predict)) {}
+                                         Predict predict, Smoothness smoothness)
+    : parameters_(std::move(parameters)), data_(std::move(data)), predict_(std::move(predict)),
+      smoothness_(smoothness) {}
 
 VectorXd LeastSquaresProblem::start() const {
   VectorXd all(static_cast<Index>(parameters_.size()));
@@ -132,16 +142,17 @@ Prediction LeastSquaresProblem::predict(const VectorXd& parameters) const {
   return remembered({parameters}).front();
 }
 
-LeastSquaresProblem::Linearised LeastSquaresProblem::linearise(const VectorXd& coordinates) const {
+LeastSquaresProblem::Linearised LeastSquaresProblem::linearise(const VectorXd& coordinates,
+                                                               double step) const {
   const Index n = coordinates.size();
   const VectorXd at = unscaled(coordinates);
   std::vector<VectorXd> choices{at};
   VectorXd steps(n);
   for (Index p = 0; p < n; ++p) {
     const FreeParameter& parameter = parameters_[static_cast<std::size_t>(p)];
-    // Errors of solves, 1e-9, and of the differences, which are of second order, are then 1e-6 of
-    // derivatives.
-    steps[p] = 1e-3;
+    // With smooth_step errors of solves, 1e-9, and of the differences, which are of second order, are 1e-6
+    // of derivatives.
+    steps[p] = step;
     if (parameter.lowest != 0) { // a step stays away from the ends, where a model may have a pole
       const double distance = std::min(at[p] - parameter.lowest, parameter.highest - at[p]) / size_of(p);
       steps[p] = std::min(steps[p] * std::max(1., std::abs(coordinates[p])), 0.1 * distance);
@@ -165,15 +176,44 @@ LeastSquaresProblem::Linearised LeastSquaresProblem::linearise(const VectorXd& c
   return model;
 }
 
+std::optional<double> LeastSquaresProblem::noise_near(const VectorXd& coordinates,
+                                                      const std::vector<Index>& places) const {
+  constexpr Index n = 7, order = 4;
+  constexpr double step = 1e-3; // what smooth answers change by in fourth order is below rounding
+  std::vector<VectorXd> choices;
+  for (Index k = 0; k < n; ++k)
+    choices.push_back(unscaled(coordinates.array() + step * static_cast<double>(k - n / 2)));
+  const VectorXd weights = data_.deviations(places).cwiseInverse();
+  Eigen::MatrixXd answers(weights.size(), n);
+  const std::vector<Prediction> found = remembered(choices);
+  for (Index k = 0; k < n; ++k) {
+    const Prediction& one = found[static_cast<std::size_t>(k)];
+    if (!one.failure.empty()) return std::nullopt;
+    answers.col(k) = one.values(places).cwiseProduct(weights);
+  }
+  const double size = answers.col(n / 2).norm();
+  for (Index k = 0; k < order; ++k)
+    answers = (answers.rightCols(answers.cols() - 1) - answers.leftCols(answers.cols() - 1)).eval();
+  // A fourth difference has the variance of its parts times 1 + 16 + 36 + 16 + 1.
+  return size > 0 ? answers.norm() / std::sqrt(70. * static_cast<double>(answers.cols())) / size : 0;
+}
+
 void LeastSquaresProblem::judge(LeastSquares& found, const VectorXd& coordinates,
                                 const std::vector<bool>& is_used) const {
   const std::vector<Index> places = places_of(is_used);
-  const Linearised model = linearise(coordinates);
+  if (smoothness_ == Smoothness::noisy) {
+    found.noise = noise_near(coordinates, places);
+    found.step = std::clamp(std::cbrt(found.noise.value_or(1)), smooth_step, largest_step);
+  }
+  const Linearised model = linearise(coordinates, found.step);
+  if (model.values.size() == 0 || (smoothness_ == Smoothness::noisy && !found.noise)) {
+    found.failure = "the model has no answers beside the minimum";
+    return;
+  }
   const auto n = static_cast<Index>(parameters_.size());
   const auto n_free = static_cast<Index>(places.size()) - n;
   const VectorXd deviations = data_.deviations(places);
   const VectorXd residuals = (model.values(places) - data_.values(places)).cwiseQuotient(deviations);
-  found.deviation_factor = 1;
   if (!data_.are_measured && n_free > 0)
     found.deviation_factor = residuals.norm() / std::sqrt(static_cast<double>(n_free));
   const double half_width = half_width_of(data_.are_measured, std::max<Index>(n_free, 1));
@@ -189,7 +229,7 @@ void LeastSquaresProblem::judge(LeastSquares& found, const VectorXd& coordinates
   Eigen::VectorXd values = Eigen::VectorXd::Zero(n);
   values.head(parts.singularValues().size()) = parts.singularValues();
   found.singular_values = listed(values);
-  constexpr double least = 1e-5; // see linearise()
+  const double least = std::max(1e-5, found.noise.value_or(0) / found.step); // see linearise()
   VectorXd variance = VectorXd::Zero(n);
   for (Index k = 0; k < n; ++k) {
     const VectorXd direction = parts.matrixV().col(k);
@@ -209,24 +249,12 @@ void LeastSquaresProblem::judge(LeastSquares& found, const VectorXd& coordinates
   }
 }
 
-LeastSquares LeastSquaresProblem::fit(const VectorXd& start, const std::vector<bool>& is_used) const {
-  LeastSquares found;
-  if (const Prediction first = predict(start); !first.failure.empty()) {
-    found.failure = first.failure;
-    return found;
-  }
-  VectorXd coordinates = scaled(start);
+LeastSquaresProblem::Search LeastSquaresProblem::descend(VectorXd& coordinates,
+                                                         const std::vector<Index>& places,
+                                                         const VectorXd& least, const VectorXd& most) const {
   ceres::Problem problem;
-  problem.AddResidualBlock(new Cost(*this, places_of(is_used)), nullptr, coordinates.data());
-  const auto n = static_cast<Index>(parameters_.size());
-  // A model may have a pole at an open end: a thousandth of what the start leaves is kept.
-  VectorXd least = VectorXd::Constant(n, -INFINITY), most = -least;
-  for (Index p = 0; p < n; ++p) {
-    const FreeParameter& parameter = parameters_[static_cast<std::size_t>(p)];
-    if (parameter.lowest == 0) continue;
-    const auto inside = [&](double end) { return (end + 1e-3 * (parameter.start - end)) / size_of(p); };
-    if (std::isfinite(parameter.lowest)) least[p] = inside(parameter.lowest);
-    if (std::isfinite(parameter.highest)) most[p] = inside(parameter.highest);
+  problem.AddResidualBlock(new Cost(*this, places), nullptr, coordinates.data());
+  for (Index p = 0; p < least.size(); ++p) {
     const auto place = static_cast<int>(p);
     if (std::isfinite(least[p])) problem.SetParameterLowerBound(coordinates.data(), place, least[p]);
     if (std::isfinite(most[p])) problem.SetParameterUpperBound(coordinates.data(), place, most[p]);
@@ -239,20 +267,80 @@ LeastSquares LeastSquaresProblem::fit(const VectorXd& start, const std::vector<b
   options.function_tolerance = 1e-6;
   options.parameter_tolerance = 1e-7; // what the noise of derivatives leaves
   const ceres::Solver::Summary summary = msm::minimise(problem, options);
+  return {summary.IsSolutionUsable(), summary.termination_type == ceres::CONVERGENCE, summary.message};
+}
+
+LeastSquaresProblem::Search LeastSquaresProblem::search_without_derivatives(VectorXd& coordinates,
+                                                                            const std::vector<Index>& places,
+                                                                            const VectorXd& least,
+                                                                            const VectorXd& most) const {
+  struct Sum {
+    const LeastSquaresProblem& problem;
+    const std::vector<Index>& places;
+    double largest = 0; ///< so far; a choice without an answer has twice it
+  } sum{*this, places};
+  const auto evaluate = [](unsigned n, const double* at, double*, void* data) {
+    Sum& to = *static_cast<Sum*>(data);
+    const Observations& wanted = to.problem.data_;
+    const Prediction found =
+        to.problem.predict(to.problem.unscaled(Eigen::Map<const VectorXd>(at, static_cast<Index>(n))));
+    if (!found.failure.empty()) return 2 * to.largest;
+    const double value = (found.values(to.places) - wanted.values(to.places))
+                             .cwiseQuotient(wanted.deviations(to.places))
+                             .squaredNorm();
+    to.largest = std::max(to.largest, value);
+    return value;
+  };
+  const auto n = static_cast<unsigned>(coordinates.size());
+  const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> search(nlopt_create(NLOPT_LN_BOBYQA, n),
+                                                                 nlopt_destroy);
+  nlopt_set_min_objective(search.get(), evaluate, &sum);
+  nlopt_set_lower_bounds(search.get(), least.data());
+  nlopt_set_upper_bounds(search.get(), most.data());
+  nlopt_set_initial_step1(search.get(), 0.1); // relative changes
+  nlopt_set_xtol_rel(search.get(), 1e-4);
+  nlopt_set_ftol_rel(search.get(), 1e-8);
+  nlopt_set_maxeval(search.get(), 200 * static_cast<int>(n));
+  double smallest = 0;
+  const nlopt_result end = nlopt_optimize(search.get(), coordinates.data(), &smallest);
+  return {end > 0 || end == NLOPT_ROUNDOFF_LIMITED, end != NLOPT_MAXEVAL_REACHED,
+          fmt::format("BOBYQA: {}", nlopt_result_to_string(end))};
+}
+
+LeastSquares LeastSquaresProblem::fit(const VectorXd& start, const std::vector<bool>& is_used) const {
+  LeastSquares found;
+  if (const Prediction first = predict(start); !first.failure.empty()) {
+    found.failure = first.failure;
+    return found;
+  }
+  VectorXd coordinates = scaled(start);
+  const auto n = static_cast<Index>(parameters_.size());
+  // A model may have a pole at an open end: a thousandth of what the start leaves is kept.
+  VectorXd least = VectorXd::Constant(n, -INFINITY), most = -least;
+  for (Index p = 0; p < n; ++p) {
+    const FreeParameter& parameter = parameters_[static_cast<std::size_t>(p)];
+    if (parameter.lowest == 0) continue;
+    const auto inside = [&](double end) { return (end + 1e-3 * (parameter.start - end)) / size_of(p); };
+    if (std::isfinite(parameter.lowest)) least[p] = inside(parameter.lowest);
+    if (std::isfinite(parameter.highest)) most[p] = inside(parameter.highest);
+  }
+  const auto minimise = smoothness_ == Smoothness::smooth ? &LeastSquaresProblem::descend
+                                                          : &LeastSquaresProblem::search_without_derivatives;
+  const Search search = (this->*minimise)(coordinates, places_of(is_used), least, most);
   found.parameters = unscaled(coordinates);
   const Prediction last = predict(found.parameters);
-  if (!summary.IsSolutionUsable() || !last.failure.empty()) {
-    found.failure = "the least squares failed: " + (last.failure.empty() ? summary.message : last.failure);
+  if (!search.is_usable || !last.failure.empty()) {
+    found.failure = "the least squares failed: " + (last.failure.empty() ? search.message : last.failure);
     return found;
   }
   found.predicted = last.values;
   judge(found, coordinates, is_used);
-  for (Index p = 0; p < n && found.undetermined.empty(); ++p)
+  for (Index p = 0; p < n && found.has_values(); ++p)
     if (coordinates[p] <= least[p] || coordinates[p] >= most[p])
       found.failure = fmt::format("{} runs to its end, {:.6g}: no value inside fits the data best",
                                   parameters_[static_cast<std::size_t>(p)].name, found.parameters[p]);
-  if (found.has_values() && summary.termination_type != ceres::CONVERGENCE)
-    found.failure = "the least squares have not converged: " + summary.message;
+  if (found.has_values() && !search.has_converged)
+    found.failure = "the least squares have not converged: " + search.message;
   return found;
 }
 

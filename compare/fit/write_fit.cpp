@@ -74,6 +74,9 @@ Json fit_to_json(const Fit& fit) {
           {"measures", json_list(fit.measures, measure_to_json)},
           {"rows", json_list(fit.rows, datum_to_json)},
           {"held_out", held_out_to_json(fit.held_out)},
+          {"solves", fit.n_solves},
+          {"noise", fit.found.noise},
+          {"difference_step", fit.found.step},
           {"settings", fit.settings}};
 }
 
@@ -125,6 +128,9 @@ void write_fit_text(std::ostream& out, const Fit& fit, bool has_rows) {
               parameter_rows(fit));
   print(out, "from and to: 95 % intervals, by {}\n\n",
         fit.has_deviations ? "the data's standard deviations" : "the residuals");
+  if (fit.found.noise)
+    print(out, "noise of the answers: {:.2g} of their size; derivatives are differences of {:.2g} %\n\n",
+          *fit.found.noise, 100 * fit.found.step);
   if (has_rows && fit.rows.size() <= most_rows && !fit.rows.empty())
     write_table(out,
                 columns_of("place measure{:<} datum{:.6g} fitted{:.6g} difference_%=difference_percent{:.2f} "
@@ -133,6 +139,7 @@ void write_fit_text(std::ostream& out, const Fit& fit, bool has_rows) {
   write_table(out, columns_of("measure n error~%=error_percent{:.3g} held~out=held_out"),
               json_list(fit.measures, measure_to_json));
   write_held_out(out, fit.held_out);
+  if (fit.n_solves > 0) print(out, "{} solves\n", fit.n_solves);
   for (const std::string& setting : fit.settings) print(out, "{}\n", shell_line({"--set", setting}));
 }
 

@@ -117,8 +117,8 @@ TEST_CASE("a positive parameter is found from far away, and its interval is posi
                                     inverse);
   const LeastSquares found = problem.fit(problem.start(), all_of(measured));
   REQUIRE(found.has_values());
-  CHECK(found.parameters[0] == Approx(places.squaredNorm() / places.dot(measured))
-                                   .margin(1e-3 * (found.upper[0] - found.lower[0])));
+  CHECK(found.parameters[0] ==
+        Approx(places.squaredNorm() / places.dot(measured)).margin(1e-3 * (found.upper[0] - found.lower[0])));
   CHECK(found.lower[0] > 0);
   CHECK(found.lower[0] < found.parameters[0]);
 }
@@ -161,4 +161,30 @@ TEST_CASE("too few data leave nothing to hold out, and say so") {
   const HeldOut held = cross_validate(problem, found, {0, 1});
   CHECK_FALSE(held.error_percent);
   CHECK_THAT(held.reason, Catch::Contains("too few"));
+}
+
+TEST_CASE("noisy answers have the line's minimum, and derivatives by a step that their noise asks for") {
+  constexpr double noise = 1e-4; // of 8, their size
+  const Predict rough = of_each([&](const VectorXd& p) -> VectorXd {
+    VectorXd values = p[0] + p[1] * places.array();
+    std::mt19937 random(static_cast<unsigned>(std::hash<double>{}(p[0] + 3 * p[1])));
+    std::normal_distribution<double> error(0, 8.6 * noise);
+    for (double& value : values) value += error(random);
+    return values;
+  });
+  const LeastSquaresProblem problem({{"a", 1.5}, {"b", 1.5}}, {measured, VectorXd::Ones(6), false}, rough,
+                                    Smoothness::noisy);
+  const LeastSquares found = problem.fit(problem.start(), all_of(measured));
+  INFO(found.failure);
+  REQUIRE(found.has_values());
+  const LeastSquares exact =
+      LeastSquaresProblem({{"a", 1}, {"b", 1}}, {measured, VectorXd::Ones(6), false}, line)
+          .fit(Eigen::Vector2d(1, 1), all_of(measured));
+  CHECK(found.noise.value() == Approx(noise).epsilon(0.5)); // of 18 fourth differences
+  CHECK(found.step == Approx(std::cbrt(*found.noise)));
+  for (Eigen::Index p = 0; p < 2; ++p) {
+    const double half = (exact.upper[p] - exact.lower[p]) / 2;
+    CHECK(std::abs(found.parameters[p] - exact.parameters[p]) < 0.1 * half);
+    CHECK((found.upper[p] - found.lower[p]) / 2 == Approx(half).epsilon(0.05));
+  }
 }
