@@ -183,8 +183,8 @@ Mesh fill_with_tetrahedra(const TriangleMesh& surface, const FilledSurface& body
 double largest_distance(const TriangleMesh& from, const TriangleMesh& to) {
   std::vector<Vector3d> points = from.vertices;
   for (const auto& triangle : from.triangles) points.push_back(barycentre(triangle, from.vertices));
-  const std::vector<double> distances = vtk().distances(to, points);
-  const double largest = *std::max_element(distances.begin(), distances.end());
+  double largest = 0;
+  for (const double distance : vtk().distances(to, points)) largest = std::max(largest, std::abs(distance));
   return largest > 1e-9 * bounding_box(points).sizes().norm() ? largest : 0; // rounding
 }
 

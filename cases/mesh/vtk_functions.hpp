@@ -144,7 +144,7 @@ struct VtkFunctions {
                                                const std::vector<Eigen::Vector3d>& positions);
   /// cases::decimated()
   Surface (*decimated)(const TriangleMesh&, std::size_t n_triangles);
-  /// How far points are from a surface, mm.  @param surface  with at least one triangle
+  /// How far points are from a surface, mm; < 0: on its inner side.  @param surface  with a triangle or more
   std::vector<double> (*distances)(const TriangleMesh& surface, const std::vector<Eigen::Vector3d>& points);
 };
 

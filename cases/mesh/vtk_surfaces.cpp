@@ -7,6 +7,7 @@
 #include <vtkFlyingEdges3D.h>
 #include <vtkGenericCell.h>
 #include <vtkImageData.h>
+#include <vtkImplicitPolyDataDistance.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -144,19 +145,10 @@ Surface contour_of(const Picture& picture, const ContourSettings& settings) {
 }
 
 std::vector<double> distances_from(const TriangleMesh& surface, const std::vector<Vector3d>& points) {
-  const vtkNew<vtkStaticCellLocator> locator;
-  locator->SetDataSet(polygons_of(surface));
-  locator->BuildLocator();
-  const vtkNew<vtkGenericCell> cell;
+  const vtkNew<vtkImplicitPolyDataDistance> distance;
+  distance->SetInput(polygons_of(surface));
   std::vector<double> distances;
-  for (const Vector3d& point : points) {
-    Vector3d nearest;
-    vtkIdType found = -1;
-    int part = 0;
-    double squared = 0;
-    locator->FindClosestPoint(point.data(), nearest.data(), cell, found, part, squared);
-    distances.push_back(std::sqrt(squared));
-  }
+  for (Vector3d point : points) distances.push_back(distance->EvaluateFunction(point.data()));
   return distances;
 }
 

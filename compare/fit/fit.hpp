@@ -71,6 +71,25 @@ struct Datum {
   int line = 0;
 };
 
+/// A surface of the deformed body as it was measured, by its vertices. Distances go from these to the
+/// model's surface: a measured surface may be a part of the body's, which the nodes of the rest would be
+/// far from, and every vertex has one error of measurement.
+struct MeasuredSurface {
+  std::string file;
+  std::vector<Eigen::Vector3d> points; ///< mm
+  Eigen::VectorXd moved;               ///< mm: distances from the body's surface at rest, < 0: inside
+  std::optional<double> deviation;     ///< standard deviation of the points along the normal, mm
+};
+
+/// @param path  .stl, .obj, .ply or .vtp   @param place  of the data that name it, for messages
+/// @throws InputError if it cannot be read, and for a network, which has no surface
+MeasuredSurface read_measured_surface(const std::string& path, const cases::Scene& scene,
+                                      const std::string& place);
+
+/// Distances of points from the outer surface of a deformed body, mm; < 0: inside.
+Eigen::VectorXd distances_from(const cases::Scene& scene, const std::vector<Eigen::Vector3d>& displacement,
+                               const std::vector<Eigen::Vector3d>& points);
+
 /// A case with settings of its own, that is solved once for all of its data.
 struct FitState {
   std::string file;                  ///< the case's
@@ -79,6 +98,9 @@ struct FitState {
   std::vector<cases::Measure> markers{};
   std::vector<Eigen::Vector3d>
       field{}; ///< displacement of every node, mm, that is to be fitted; may be empty
+  std::optional<MeasuredSurface> surface{};
+
+  std::size_t n_beside_data() const { return 3 * field.size() + (surface ? surface->points.size() : 0); }
 };
 
 struct FitData {
@@ -95,7 +117,8 @@ struct FitCases {
 /// Reads data: a table with a heading. Columns are measures of the case by their names, with standard
 /// deviations in a column `NAME sigma` or `sigma` for all of a row; keys of the case, such as
 /// load[0].value[2], which are set to the row's values; `case`, the case's name where there are several; or
-/// x, y, z (mm, at rest) of markers, with any of ux, uy, uz. Empty fields are no data.
+/// x, y, z (mm, at rest) of markers, with any of ux, uy, uz; or `surface`, a file of a measured surface,
+/// relative to the data's folder. Empty fields are no data.
 /// @param name  the file's, for messages   @throws InputError with the line
 FitData read_fit_data(const std::string& text, const std::string& name, const FitCases& cases);
 

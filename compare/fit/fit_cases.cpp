@@ -97,17 +97,17 @@ VectorXd flattened(const std::vector<Eigen::Vector3d>& field) {
   return Eigen::Map<const VectorXd>(field.front().data(), 3 * static_cast<Index>(field.size()));
 }
 
-/// All data in one vector: those of measures, then the fields, state by state.
+/// All data in one vector: those of measures, then the field or the surface of each state.
 struct Layout {
   explicit Layout(const FitData& data) {
     for (const Datum& datum : data.data) state_of.push_back(datum.state);
     for (std::size_t s = 0; s < data.states.size(); ++s) {
-      field_begin.push_back(static_cast<Index>(state_of.size()));
-      state_of.insert(state_of.end(), 3 * data.states[s].field.size(), s);
+      begin.push_back(static_cast<Index>(state_of.size()));
+      state_of.insert(state_of.end(), data.states[s].n_beside_data(), s);
     }
   }
   std::vector<std::size_t> state_of; ///< each value's state
-  std::vector<Index> field_begin;    ///< where each state's field begins
+  std::vector<Index> begin;          ///< where those of each state begin
 };
 
 /// Root mean square of the data of one measure: what their errors are in proportion to.
@@ -128,9 +128,16 @@ std::string group_of(const Datum& datum) {
   return datum.measure.where.key.size() == 2 && at != std::string::npos ? "markers" : datum.measure.name;
 }
 
+bool has_deviations(const FitData& data) {
+  return std::any_of(data.data.begin(), data.data.end(),
+                     [](const Datum& d) { return d.deviation.has_value(); }) ||
+         std::any_of(data.states.begin(), data.states.end(),
+                     [](const FitState& s) { return s.surface && s.surface->deviation; });
+}
+
 Observations observations_of(const FitData& data, const Layout& layout) {
   const auto n = static_cast<Index>(layout.state_of.size());
-  Observations all{VectorXd(n), VectorXd(n), !data.data.empty() && data.data.front().deviation.has_value()};
+  Observations all{VectorXd(n), VectorXd(n), has_deviations(data)};
   FitData grouped = data;
   for (Datum& datum : grouped.data) datum.measure.name = group_of(datum);
   for (std::size_t d = 0; d < data.data.size(); ++d) {
@@ -139,11 +146,17 @@ Observations observations_of(const FitData& data, const Layout& layout) {
         data.data[d].deviation.value_or(size_of(grouped, grouped.data[d].measure.name));
   }
   for (std::size_t s = 0; s < data.states.size(); ++s) {
+    if (const auto& surface = data.states[s].surface) {
+      const double size = surface->moved.norm() / std::sqrt(static_cast<double>(surface->moved.size()));
+      all.values.segment(layout.begin[s], surface->moved.size()) = surface->moved;
+      all.deviations.segment(layout.begin[s], surface->moved.size())
+          .setConstant(surface->deviation.value_or(size > 0 ? size : 1));
+    }
     if (data.states[s].field.empty()) continue;
     const VectorXd field = flattened(data.states[s].field);
-    all.values.segment(layout.field_begin[s], field.size()) = field;
+    all.values.segment(layout.begin[s], field.size()) = field;
     // Every state counts alike, whatever its number of nodes.
-    all.deviations.segment(layout.field_begin[s], field.size()).setConstant(field.norm());
+    all.deviations.segment(layout.begin[s], field.size()).setConstant(field.norm());
   }
   return all;
 }
@@ -203,8 +216,11 @@ class Model {
                               *reason)};
         found.values[static_cast<Index>(d)] = std::get<double>(value);
       }
+      if (const auto& surface = data_.states[s].surface) // how far from where it was, less what is missing
+        found.values.segment(layout_.begin[s], surface->moved.size()) =
+            surface->moved - distances_from(questions[s].scene, solution.displacement, surface->points);
       if (!data_.states[s].field.empty())
-        found.values.segment(layout_.field_begin[s], 3 * static_cast<Index>(data_.states[s].field.size())) =
+        found.values.segment(layout_.begin[s], 3 * static_cast<Index>(data_.states[s].field.size())) =
             flattened(solution.displacement);
     }
     return found;
@@ -261,7 +277,8 @@ void add_rows(Fit& fit, const FitData& data, const Layout& layout, const Observa
   for (const std::string& name : names)
     add_sum(name, [&](std::size_t i) { return i < data.data.size() && group_of(data.data[i]) == name; });
   for (std::size_t s = 0; s < data.states.size(); ++s)
-    add_sum(place_of(data.states[s]) + ": displacement",
+    add_sum(data.states[s].surface ? data.states[s].surface->file
+                                   : place_of(data.states[s]) + ": displacement",
             [&](std::size_t i) { return i >= data.data.size() && layout.state_of[i] == s; });
 }
 

@@ -5,13 +5,14 @@
 #include "compare/measure/measure.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace springproof::compare {
 
 namespace {
 
-enum class Role { case_name, setting, coordinate, marker, measure, deviation };
+enum class Role { case_name, setting, coordinate, marker, measure, surface, deviation };
 
 struct DataColumn {
   Role role;
@@ -62,24 +63,27 @@ DataColumn column_of(const std::string& name, const std::vector<KnownCase>& know
   if (name == "case") return {Role::case_name, name};
   if (name == "x" || name == "y" || name == "z") return {Role::coordinate, name, name[0] - 'x'};
   if (name == "ux" || name == "uy" || name == "uz") return {Role::marker, name, name[1] - 'x'};
+  if (name == "surface") return {Role::surface, name};
   if (name == sigma) return {Role::deviation, ""};
   const std::string suffix = std::string(" ") + sigma;
   if (name.size() > suffix.size() && name.substr(name.size() - suffix.size()) == suffix)
     if (const std::string of = name.substr(0, name.size() - suffix.size());
-        is_measure(known, of) || of == "ux" || of == "uy" || of == "uz")
+        is_measure(known, of) || of == "ux" || of == "uy" || of == "uz" || of == "surface")
       return {Role::deviation, of};
   if (name.find('.') != std::string::npos) return {Role::setting, name};
-  throw cases::InputError(fmt::format("{}\"{}\" is no column, must be a measure of the cases ({}), one of "
-                                      "them with \" sigma\" behind it, a key "
-                                      "such as load[0].value[2], or case, sigma, x, y, z, ux, uy, uz",
-                                      place, name, listed_measures(known)));
+  throw cases::InputError(
+      fmt::format("{}\"{}\" is no column, must be a measure of the cases ({}), one of "
+                  "them with \" sigma\" behind it, a key "
+                  "such as load[0].value[2], or case, surface, sigma, x, y, z, ux, uy, uz",
+                  place, name, listed_measures(known)));
 }
 
 /// One row's fields by the columns' roles.
 class RowReader {
  public:
-  RowReader(FitData& data, const std::vector<KnownCase>& known, const std::vector<DataColumn>& columns)
-      : data_(data), known_(known), columns_(columns) {}
+  RowReader(FitData& data, const FitCases& cases, const std::vector<KnownCase>& known,
+            const std::vector<DataColumn>& columns)
+      : data_(data), cases_(cases), known_(known), columns_(columns) {}
 
   void operator()(const cases::TextRow& row) {
     if (columns_.empty())
@@ -95,7 +99,13 @@ class RowReader {
     bool has_data = false;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       const DataColumn& column = columns_[c];
-      if (row.fields[c].empty() || (column.role != Role::measure && column.role != Role::marker)) continue;
+      if (row.fields[c].empty()) continue;
+      if (column.role == Role::surface) {
+        has_data = true;
+        add_surface(data_.states[state], std::string(row.fields[c]), row);
+        continue;
+      }
+      if ((column.role != Role::measure && column.role != Role::marker)) continue;
       has_data = true;
       const double value = number(row, c);
       data_.data.push_back(
@@ -170,6 +180,14 @@ class RowReader {
     return std::nullopt;
   }
 
+  void add_surface(FitState& state, const std::string& file, const cases::TextRow& row) const {
+    if (state.surface)
+      throw cases::InputError(row.place() + "the state has a surface already: join them in one file");
+    const auto folder = std::filesystem::path(row.name).parent_path();
+    state.surface = read_measured_surface((folder / file).string(), scene_of(cases_, state), row.place());
+    state.surface->deviation = deviation_of(row, "surface");
+  }
+
   static cases::Measure measure_of(const KnownCase& of, const DataColumn& column,
                                    const std::optional<Eigen::Vector3d>& point, const cases::TextRow& row) {
     const cases::Where where{row.name, row.number, 1, column.name};
@@ -192,6 +210,7 @@ class RowReader {
   }
 
   FitData& data_;
+  const FitCases& cases_;
   const std::vector<KnownCase>& known_;
   const std::vector<DataColumn>& columns_;
 };
@@ -202,7 +221,7 @@ FitData read_fit_data(const std::string& text, const std::string& name, const Fi
   const std::vector<KnownCase> known = known_cases(cases);
   FitData data;
   std::vector<DataColumn> columns;
-  RowReader read(data, known, columns);
+  RowReader read(data, cases, known, columns);
   std::vector<std::string> names;
   const auto heading = [&](const cases::TextRow& row) {
     for (const std::string_view field : row.fields) {
@@ -214,16 +233,19 @@ FitData read_fit_data(const std::string& text, const std::string& name, const Fi
     }
   };
   cases::read_rows(text, name, cases::Between::commas, heading, read);
-  if (data.data.empty()) throw cases::InputError(name + ": has no rows of data");
+  if (data.states.empty()) throw cases::InputError(name + ": has no rows of data");
   for (const KnownCase& one : known)
     if (std::none_of(data.states.begin(), data.states.end(),
                      [&](const FitState& state) { return state.file == one.file; }))
       throw cases::InputError(fmt::format("{}: has no data of {}", name, one.file));
-  const auto n_with = static_cast<std::size_t>(std::count_if(
-      data.data.begin(), data.data.end(), [](const Datum& d) { return d.deviation.has_value(); }));
-  if (n_with != 0 && n_with != data.data.size())
+  std::vector<bool> have_deviations;
+  for (const Datum& datum : data.data) have_deviations.push_back(datum.deviation.has_value());
+  for (const FitState& state : data.states)
+    if (state.surface) have_deviations.push_back(state.surface->deviation.has_value());
+  const auto n_with = std::count(have_deviations.begin(), have_deviations.end(), true);
+  if (n_with != 0 && n_with != static_cast<std::ptrdiff_t>(have_deviations.size()))
     throw cases::InputError(fmt::format("{}: {} of {} data have a standard deviation, must be all or none",
-                                        name, n_with, data.data.size()));
+                                        name, n_with, have_deviations.size()));
   return data;
 }
 
