@@ -2,8 +2,6 @@
 
 #include "cases/case/case.hpp"
 
-#include <numeric>
-
 namespace springproof::mechanics {
 
 /// Moduli of isotropic linear elasticity, MPa.
@@ -22,19 +20,14 @@ inline cases::LinearElastic linear_elastic(double mu, double kappa) {
   return {9 * kappa * mu / (3 * kappa + mu), (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu))};
 }
 
-/// Shear modulus at rest, MPa.
-inline double shear_modulus(const cases::Ogden& material) {
-  return std::accumulate(material.mu.begin(), material.mu.end(), 0.);
-}
-
-/// Bulk modulus over initial shear modulus of an Ogden material that names none: the volume of the thesis's
-/// cube changes by less than 0.1 % under every load, its bar's deflection by 0.02 % from that at twice the
-/// ratio.
+/// Bulk modulus over initial shear modulus of a hyperelastic material that names none: the volume of the
+/// thesis's cube changes by less than 0.1 % under every load, its bar's deflection by 0.02 % from that at
+/// twice the ratio.
 constexpr double nearly_incompressible_ratio = 1000;
 
-/// Bulk modulus, MPa.
-inline double bulk_modulus(const cases::Ogden& material) {
-  return material.bulk_modulus.value_or(nearly_incompressible_ratio * shear_modulus(material));
+inline ElasticModuli elastic_moduli(const cases::HyperelasticRest& rest) {
+  const double mu = rest.shear_modulus, kappa = rest.bulk_modulus.value_or(nearly_incompressible_ratio * mu);
+  return {kappa - 2 * mu / 3, mu, kappa};
 }
 
 /// Elasticity of a transversely isotropic material in axes of its own, the third along the fibre, MPa:

@@ -132,13 +132,13 @@ std::string steps_needed(ElementMethod method, const Material& material) {
     return "of method = \"" + name_of(ElementMethod::total_lagrangian_explicit) + "\" with model = \"" +
            model + "\": the laws of the others are those of \"" + LinearElastic::name + "\" materials";
   return needs_pressure(material)
-             ? "left out with an ogden material that has no bulk_modulus: its elements have no pressure"
+             ? "left out with model = \"" + model + "\" without bulk_modulus: its elements have no pressure"
              : "";
 }
 
 bool needs_pressure(const Material& material) {
-  const Ogden* ogden = std::get_if<Ogden>(&material);
-  return ogden != nullptr && !ogden->bulk_modulus;
+  const auto rest = hyperelastic_rest(material);
+  return rest && !rest->bulk_modulus;
 }
 
 } // namespace springproof::cases

@@ -26,6 +26,16 @@ struct Ogden {
 };
 SPRINGPROOF_FIELDS(Ogden, mu, alpha, bulk_modulus)
 
+/// W = c10 I + c20 I² + c30 I³ + kappa/4 (J² - 1 - 2 ln J), I = l1² + l2² + l3² - 3 of isochoric stretches.
+/// Source: Yeoh 1993, Rubber Chem Technol 66:754.
+struct Yeoh {
+  static constexpr const char* name = "yeoh";
+  double c10;                         ///< MPa, > 0: half the initial shear modulus
+  double c20 = 0, c30 = 0;            ///< MPa
+  std::optional<double> bulk_modulus; ///< MPa; absent: nearly incompressible
+};
+SPRINGPROOF_FIELDS(Yeoh, c10, c20, c30, bulk_modulus)
+
 /// Linear elastic with an axis of symmetry, its fibre: engineering constants along and across it. The strain
 /// energy is positive when poissons_ratio_along² < (1 - poissons_ratio_across) E_along/(2 E_across).
 struct TransverselyIsotropic {
@@ -39,7 +49,36 @@ struct TransverselyIsotropic {
 SPRINGPROOF_FIELDS(TransverselyIsotropic, youngs_modulus_along, youngs_modulus_across, poissons_ratio_along,
                    poissons_ratio_across, shear_modulus_along, fibre)
 
-using Material = std::variant<LinearElastic, Ogden, TransverselyIsotropic>;
+using Material = std::variant<LinearElastic, Ogden, TransverselyIsotropic, Yeoh>;
+
+/// Moduli at rest of a hyperelastic material, MPa.
+struct HyperelasticRest {
+  double shear_modulus;
+  std::optional<double> bulk_modulus; ///< absent: nearly incompressible
+};
+inline HyperelasticRest at_rest(const Ogden& m) {
+  return {std::accumulate(m.mu.begin(), m.mu.end(), 0.), m.bulk_modulus};
+}
+inline HyperelasticRest at_rest(const Yeoh& m) {
+  return {2 * m.c10, m.bulk_modulus};
+}
+
+/// Those of a material that is hyperelastic; else nothing.
+inline std::optional<HyperelasticRest> hyperelastic_rest(const Material& material) {
+  return std::visit(
+      [](const auto& m) -> std::optional<HyperelasticRest> {
+        using Kind = std::decay_t<decltype(m)>;
+        if constexpr (std::is_same_v<Kind, LinearElastic> || std::is_same_v<Kind, TransverselyIsotropic>)
+          return std::nullopt;
+        else
+          return at_rest(m); // a law without one must not compile
+      },
+      material);
+}
+
+inline bool is_hyperelastic(const Material& material) {
+  return hyperelastic_rest(material).has_value();
+}
 
 /// The axis along which a direction lies, to 1e-9 of its length; none when it lies askew.
 inline std::optional<Axis> axis_along(const Eigen::Vector3d& direction) {
@@ -58,9 +97,9 @@ inline bool is_isotropic(const Material& material) {
 /// Poisson's ratio at rest of an isotropic material.
 inline double poissons_ratio_of(const Material& material) {
   if (const auto* linear = std::get_if<LinearElastic>(&material)) return linear->poissons_ratio;
-  const auto& ogden = std::get<Ogden>(material);
-  if (!ogden.bulk_modulus) return 0.5;
-  const double mu = std::accumulate(ogden.mu.begin(), ogden.mu.end(), 0.0), kappa = *ogden.bulk_modulus;
+  const HyperelasticRest rest = hyperelastic_rest(material).value();
+  if (!rest.bulk_modulus) return 0.5;
+  const double mu = rest.shear_modulus, kappa = *rest.bulk_modulus;
   return (3 * kappa - 2 * mu) / (2 * (3 * kappa + mu));
 }
 

@@ -137,6 +137,17 @@ void read_keys(Table& table, Ogden& material) {
   material.bulk_modulus = table.optional("bulk_modulus", modulus);
 }
 
+void read_keys(Table& table, Yeoh& m) {
+  table.know({"c20", "c30"}); // no slips of a missing c10
+  m.c10 = table.required("c10",
+                         Number{"a number above 0 (MPa), from 1e-12 to 1e12: half the initial shear modulus",
+                                modulus.condition});
+  const Number coefficient{"a finite number (MPa)"};
+  m.c20 = table.optional("c20", coefficient).value_or(0);
+  m.c30 = table.optional("c30", coefficient).value_or(0);
+  m.bulk_modulus = table.optional("bulk_modulus", modulus);
+}
+
 /// The compliance is positive definite when every modulus is positive, |nu_TT| < 1 and
 /// 1 - nu_TT - 2 nu_LT² E_T/E_L > 0 (Lempriere 1968, AIAA J 6:2226).
 void read_keys(Table& table, TransverselyIsotropic& m) {
@@ -178,9 +189,6 @@ Material read_material(Table& table) {
   const Entry model = table.entry("model");
   std::vector<std::string> names = Kinds<Material>::names();
   names.insert(names.end(), {"neo_hookean", "mooney_rivlin"});
-  if (model.value<std::string>() == "yeoh")
-    model.refuse("{}: Yeoh's law is not among them; fit --law ogden has one for the same curve",
-                 alternatives(names));
   if (const std::string name = model.word(names); !contains(Kinds<Material>::names(), name))
     return read_mooney_rivlin(table, name);
   auto material = table.required("model", read_kind<Material>);

@@ -15,7 +15,7 @@ namespace {
 /// Lists the formulations for a material.  @param model  material.model of a case file
 std::vector<Formulation> formulations_of(const std::string& model) {
   using F = Formulation;
-  if (model == Ogden::name) return {F::hyperelastic};
+  if (model == Ogden::name || model == Yeoh::name) return {F::hyperelastic};
   if (model == TransverselyIsotropic::name) return {F::small_strain, F::log_strain};
   return {F::small_strain, F::saint_venant_kirchhoff, F::log_strain};
 }
@@ -32,12 +32,13 @@ void read_formulation(Table& table, const Material& material, Fem& fem) {
   std::vector<std::string> words = all_names<Formulation>();
   words.emplace_back("auto");
   const auto word = table.optional("formulation", [&](const Entry& entry) { return entry.word(words); });
-  const bool is_ogden = std::holds_alternative<Ogden>(material);
+  const bool has_finite_strains = is_hyperelastic(material);
   fem.has_auto_formulation = word == "auto";
-  table.refuse_unless(!(fem.has_auto_formulation && is_ogden), {"formulation"},
-                      "\"hyperelastic\" with the ogden material, which has no small strains");
+  table.refuse_unless(
+      !(fem.has_auto_formulation && has_finite_strains), {"formulation"},
+      fmt::format("\"hyperelastic\" with the {} material, which has no small strains", name_of(material)));
   fem.formulation = value_of<Formulation>(word.value_or("auto"))
-                        .value_or(is_ogden ? Formulation::hyperelastic : Formulation::log_strain);
+                        .value_or(has_finite_strains ? Formulation::hyperelastic : Formulation::log_strain);
   const std::vector<Formulation> allowed = formulations_of(name_of(material));
   table.refuse_unless(contains(allowed, fem.formulation), {"formulation"},
                       fmt::format("{} with model = \"{}\"; {} needs model = {}", alternatives(allowed),
@@ -47,9 +48,11 @@ void read_formulation(Table& table, const Material& material, Fem& fem) {
 /// The elements required by the material, when this one is not among them; otherwise empty.
 std::string element_needed(Element element, const Material& material) {
   if (!needs_pressure(material) || facts_of(element).has_pressure) return "";
-  return "\"q1_p0\" | \"q1_bbar\" | \"q2_p1\", or \"p2_p0\" | \"p2_p1\" on tetrahedra, with an ogden "
-         "material that has no bulk_modulus: it is nearly incompressible, and a displacement element without "
-         "averaged volume locks";
+  return fmt::format(
+      "\"q1_p0\" | \"q1_bbar\" | \"q2_p1\", or \"p2_p0\" | \"p2_p1\" on tetrahedra, with model = "
+      "\"{}\" without bulk_modulus: it is nearly incompressible, and a displacement element "
+      "without averaged volume locks",
+      name_of(material));
 }
 
 /// Elements of both shapes: which of them the body has is known with its mesh.
@@ -140,13 +143,12 @@ Fem read_fem(Table& table, const Case& definition) {
 /// The requirement of the design on Poisson's ratio, when it is not met; otherwise empty.
 std::string design_needed(const Msm& msm, const Material& material) {
   const LinearElastic* linear = std::get_if<LinearElastic>(&material);
-  const Ogden* ogden = std::get_if<Ogden>(&material);
-  const bool is_incompressible = ogden && !ogden->bulk_modulus && !msm.poissons_ratio;
+  const bool is_incompressible = needs_pressure(material) && !msm.poissons_ratio;
   const DesignFacts& facts = facts_of(msm.design);
   if (facts.ratio.is_below_half && is_incompressible)
-    return fmt::format("another design than \"{}\", which needs a Poisson's ratio below 0.5: this ogden "
+    return fmt::format("another design than \"{}\", which needs a Poisson's ratio below 0.5: this {} "
                        "material has none without bulk_modulus; or give msm.poissons_ratio",
-                       name_of(msm.design));
+                       name_of(msm.design), name_of(material));
   const double ratio = msm.poissons_ratio.value_or(linear ? linear->poissons_ratio : 0.5);
   if (const auto least = facts.ratio.least; least && ratio < *least)
     return fmt::format("another design than \"{}\", which needs a Poisson's ratio of {} and more, not {}",
@@ -371,7 +373,7 @@ Design default_design(const std::vector<Material>& materials, std::optional<doub
     const double nu = poissons_ratio.value_or(poissons_ratio_of(material));
     if (nu < 0) return Design::moduli;
     // 0.36 loses its stability at a logarithmic strain of -0.2; below 0.25 the volume term is negative.
-    is_hybrid = is_hybrid || nu < 0.25 || (nu > 0.35 && !std::holds_alternative<Ogden>(material));
+    is_hybrid = is_hybrid || nu < 0.25 || (nu > 0.35 && !is_hyperelastic(material));
   }
   if (!has_nodal_forces) return Design::midline;
   return is_hybrid ? Design::hybrid : Design::matched;

@@ -80,10 +80,10 @@ std::string why_without_errors(const Answers& fem, const Answers& msm) {
 }
 
 cases::Case cube_case(const CubeTest& test, const cases::Material& material, double edge) {
-  const bool is_ogden = std::holds_alternative<cases::Ogden>(material);
+  const bool is_hyperelastic = cases::is_hyperelastic(material);
   cases::Case definition =
       cases::read_case(fmt::format("{}/thesis/{}/cube_{}_{}.toml", cases_folder(),
-                                   is_ogden ? "ogden" : "linear_elastic", test.test, test.load_set));
+                                   is_hyperelastic ? "ogden" : "linear_elastic", test.test, test.load_set));
   const double scale = msm::small_strain_material(material).youngs_modulus /
                        msm::small_strain_material(definition.material).youngs_modulus * edge * edge;
   definition.material = material;

@@ -27,6 +27,8 @@ Json material_to_json(const cases::Material& material) {
           json.update(SPRINGPROOF_MEMBERS(m, youngs_modulus, poissons_ratio));
         else if constexpr (std::is_same_v<Model, cases::Ogden>)
           json.update(SPRINGPROOF_MEMBERS(m, mu, alpha, bulk_modulus));
+        else if constexpr (std::is_same_v<Model, cases::Yeoh>)
+          json.update(SPRINGPROOF_MEMBERS(m, c10, c20, c30, bulk_modulus));
         else
           json.update(SPRINGPROOF_MEMBERS(m, youngs_modulus_along, youngs_modulus_across,
                                           poissons_ratio_along, poissons_ratio_across, shear_modulus_along));

@@ -39,7 +39,7 @@ std::vector<std::vector<FreeParameter>> starts_of(CurveLaw law, int n_terms, dou
     return {{{"c10", shear_modulus / 4}, {"c01", shear_modulus / 4}}};
   case CurveLaw::yeoh: {
     std::vector<FreeParameter> all;
-    for (int i = 1; i <= n_terms; ++i) all.push_back({fmt::format("c{}", i), shear_modulus / 2});
+    for (int i = 1; i <= n_terms; ++i) all.push_back({fmt::format("c{}0", i), shear_modulus / 2});
     return {all};
   }
   case CurveLaw::ogden:
@@ -63,8 +63,12 @@ std::vector<std::string> settings_of(CurveLaw law, const VectorXd& p) {
     return {fmt::format(R"(material={{model="neo_hookean", shear_modulus={:.8g}}})", p[0])};
   case CurveLaw::mooney_rivlin:
     return {fmt::format(R"(material={{model="mooney_rivlin", c10={:.8g}, c01={:.8g}}})", p[0], p[1])};
-  case CurveLaw::yeoh: // no case has it
-    return {};
+  case CurveLaw::yeoh: {
+    if (!(p[0] > 0)) return {}; // no case takes it
+    std::string terms;
+    for (Index i = 0; i < p.size(); ++i) terms += fmt::format(", c{}0={:.8g}", i + 1, p[i]);
+    return {fmt::format(R"(material={{model="yeoh"{}}})", terms)};
+  }
   case CurveLaw::ogden:
     break;
   }

@@ -33,15 +33,16 @@ bool needs_pressure(const cases::Scene& scene) {
 }
 
 Json moduli_to_json(const cases::Material& material) {
-  if (const auto* ogden = std::get_if<cases::Ogden>(&material)) {
-    Json terms = Json::array();
-    for (std::size_t i = 0; i < ogden->mu.size(); ++i) terms.push_back({ogden->mu[i], ogden->alpha[i]});
-    return {{"mu", mechanics::shear_modulus(*ogden)},
-            {"kappa", mechanics::bulk_modulus(*ogden)},
-            {"terms", terms}};
-  }
-  const auto moduli = mechanics::elastic_moduli(std::get<cases::LinearElastic>(material));
-  return {{"mu", moduli.mu}, {"kappa", moduli.kappa}};
+  const auto rest = cases::hyperelastic_rest(material);
+  const auto moduli = rest ? mechanics::elastic_moduli(*rest)
+                           : mechanics::elastic_moduli(std::get<cases::LinearElastic>(material));
+  Json json{{"mu", moduli.mu}, {"kappa", moduli.kappa}};
+  if (const auto* ogden = std::get_if<cases::Ogden>(&material))
+    for (std::size_t i = 0; i < ogden->mu.size(); ++i)
+      json["terms"].push_back({ogden->mu[i], ogden->alpha[i]});
+  if (const auto* yeoh = std::get_if<cases::Yeoh>(&material))
+    json["yeoh"] = {yeoh->c10, yeoh->c20, yeoh->c30};
+  return json;
 }
 
 /// The numbers of true components.

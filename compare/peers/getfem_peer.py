@@ -130,7 +130,7 @@ def law(name, material, unknown):
     """Returns the weak form of the internal forces in GetFEM's language: P : Grad_Test_u, and the equation of the pressure.
 
     The law is linear in the small strain, Saint Venant and Kirchhoff's, linear between Cauchy's stress and the logarithmic
-    strain, or Ogden's. `unknown` names the pressure's field; without one the pressure is the law's at every point.
+    strain, Ogden's or Yeoh's. `unknown` names the pressure's field; without one the pressure is the law's at every point.
     """
     mu, kappa = material["mu"], material["kappa"]
     f = DEFORMATION
@@ -149,12 +149,16 @@ def law(name, material, unknown):
         stress, left, right = f"{j}*{mu}*Deviator(Logm({b}))", "", f"*Inv({f})'"
     else:
         modulus, volume, scale = kappa, f"(({j}-1/{j})/2)", j
-        powers = {2: b, -2: f"Inv({b})", 4: f"({b}*{b})", -4: f"(Inv({b})*Inv({b}))"}
         left, right = "", f"*Inv({f})'"
+        powers = {2: b, -2: f"Inv({b})", 4: f"({b}*{b})", -4: f"(Inv({b})*Inv({b}))"}
         stress = "+".join(
             f"({2 * mu_i / alpha})*pow({j},{-alpha / 3})*Deviator({powers.get(alpha) or f'Expm({alpha / 2}*Logm({b}))'})"
-            for mu_i, alpha in material["terms"]
+            for mu_i, alpha in material.get("terms", ())
         )
+        if "yeoh" in material:
+            c10, c20, c30 = material["yeoh"]
+            i = f"(pow({j},-2/3)*Trace({b})-3)"
+            stress = f"2*({c10}+{2 * c20}*{i}+{3 * c30}*sqr({i}))*pow({j},-2/3)*Deviator({b})"
     pressure = unknown or f"({modulus})*{volume}"
     form = f"({left}({stress}+{scale}*{pressure}*Id(3)){right}):Grad_Test_u"
     return form + (f"+({unknown}/({modulus})-{volume})*Test_{unknown}" if unknown else "")

@@ -36,9 +36,7 @@ std::vector<double> parameters_of(const cases::Material& material) {
 mechanics::ElasticModuli moduli_at_rest(const cases::Material& material) {
   if (const auto* elastic = std::get_if<cases::LinearElastic>(&material))
     return mechanics::elastic_moduli(*elastic);
-  const auto& ogden = std::get<cases::Ogden>(material);
-  const double mu = mechanics::shear_modulus(ogden), kappa = mechanics::bulk_modulus(ogden);
-  return {kappa - 2 * mu / 3, mu, kappa};
+  return mechanics::elastic_moduli(cases::hyperelastic_rest(material).value());
 }
 
 bool is_on_grid(const cases::Scene& scene) {
@@ -49,7 +47,9 @@ bool is_on_grid(const cases::Scene& scene) {
   if (cases::has_memory(scene.definition)) return false;
   std::size_t n_parameters = 0;
   for (const cases::Material& material : cases::materials_of(scene.definition)) {
-    if (std::holds_alternative<cases::TransverselyIsotropic>(material)) return false;
+    if (std::holds_alternative<cases::TransverselyIsotropic>(material) ||
+        std::holds_alternative<cases::Yeoh>(material))
+      return false;
     if (std::holds_alternative<cases::Ogden>(material) !=
         (fem.formulation == cases::Formulation::hyperelastic))
       return false; // the other backend has the message

@@ -39,7 +39,7 @@ Formulation make_formulation(const cases::Fem& fem, const cases::Material& mater
   case cases::Formulation::hyperelastic:
     break;
   }
-  return with_material<Ogden>(fem, material);
+  return with_material<Ogden, Yeoh>(fem, material);
 }
 
 std::vector<Formulation> formulations_of(const cases::Scene& scene) {

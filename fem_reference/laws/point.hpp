@@ -6,6 +6,7 @@
 #include "mechanics/laws/principal_stress.hpp"
 #include "mechanics/laws/saint_venant_kirchhoff.hpp"
 #include "mechanics/laws/small_strain.hpp"
+#include "mechanics/laws/yeoh.hpp"
 
 #include <Eigen/Core>
 
@@ -120,5 +121,6 @@ using SmallStrain = AtPoint<mechanics::SmallStrain>;
 using SaintVenantKirchhoff = AtPoint<mechanics::SaintVenantKirchhoff>;
 using LogStrain = AtPoint<mechanics::InPrincipalStretches<mechanics::LogStrain>>;
 using Ogden = AtPoint<mechanics::InPrincipalStretches<mechanics::Ogden>>;
+using Yeoh = AtPoint<mechanics::InPrincipalStretches<mechanics::Yeoh>>;
 
 } // namespace springproof::fem_reference

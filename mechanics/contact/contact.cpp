@@ -26,9 +26,12 @@ constexpr double allowed_passage = 0.05;  ///< of a point's way through a tool, 
 double modulus_of(const cases::LinearElastic& material) {
   return material.youngs_modulus;
 }
-/// That of an incompressible one.
+/// Those of incompressible ones.
 double modulus_of(const cases::Ogden& material) {
-  return 3 * shear_modulus(material);
+  return 3 * at_rest(material).shear_modulus;
+}
+double modulus_of(const cases::Yeoh& material) {
+  return 3 * at_rest(material).shear_modulus;
 }
 double modulus_of(const cases::TransverselyIsotropic& material) {
   return std::max(material.youngs_modulus_along, material.youngs_modulus_across);

@@ -17,8 +17,29 @@ SPRINGPROOF_INLINE P sinh_ratio(const P& a, const P& d) {
   return absolute(d) > near ? direct : series;
 }
 
-/// W = sum 2 mu/alpha² (isochoric stretches^alpha - 3) + kappa/4 (J² - 1 - 2 ln J), so p = kappa/2 (J - 1/J).
-struct Ogden {
+/// kappa/4 (J² - 1 - 2 ln J), so p = kappa/2 (J - 1/J): the volume's part of hyperelastic laws.
+struct HyperelasticVolume {
+  template<class P>
+  SPRINGPROOF_INLINE static ValueAndSlope<P> pressure(const P& dilatation, const Parameters<P>& m) {
+    const P j = 1 + dilatation;
+    return {m.value[0] / 2 * dilatation * (1 + j) / j, m.value[0] / 2 * (1 + 1 / (j * j))};
+  }
+  /// One less than the positive root of J² - 2 p/kappa J - 1 = 0, without cancellation for either sign of p.
+  template<class P>
+  SPRINGPROOF_INLINE static ValueAndSlope<P> dilatation(const P& p, const Parameters<P>& m) {
+    const P q = p / m.value[0], length = root(q * q + 1), beyond = q * q / (length + 1);
+    const P j = q >= P{} ? q + length : 1 / (length - q);
+    return {q >= P{} ? q + beyond : (q - beyond) / (length - q), j / (length * m.value[0])};
+  }
+  /// kappa/4 (J² - 1 - 2 ln J)
+  template<class P>
+  SPRINGPROOF_INLINE static P volume_energy(const P& dilatation, const Parameters<P>& m) {
+    return m.value[0] / 4 * exponential_beyond_linear(2 * log1p_of(dilatation));
+  }
+};
+
+/// W = sum 2 mu/alpha² (isochoric stretches^alpha - 3), and the volume's part.
+struct Ogden : HyperelasticVolume {
   using Moduli = Upper;
   using Material = cases::Ogden;
   /// tau_i = sum_p 2 mu_p/alpha_p (s_i - (s_1 + s_2 + s_3)/3), s_i = (isochoric stretch i)^alpha_p.
@@ -56,18 +77,6 @@ struct Ogden {
       }
     }
   }
-  template<class P>
-  SPRINGPROOF_INLINE static ValueAndSlope<P> pressure(const P& dilatation, const Parameters<P>& m) {
-    const P j = 1 + dilatation;
-    return {m.value[0] / 2 * dilatation * (1 + j) / j, m.value[0] / 2 * (1 + 1 / (j * j))};
-  }
-  /// One less than the positive root of J² - 2 p/kappa J - 1 = 0, without cancellation for either sign of p.
-  template<class P>
-  SPRINGPROOF_INLINE static ValueAndSlope<P> dilatation(const P& p, const Parameters<P>& m) {
-    const P q = p / m.value[0], length = root(q * q + 1), beyond = q * q / (length + 1);
-    const P j = q >= P{} ? q + length : 1 / (length - q);
-    return {q >= P{} ? q + beyond : (q - beyond) / (length - q), j / (length * m.value[0])};
-  }
   /// sum 2 mu/alpha² (isochoric stretches^alpha - 3), N mm/mm³. Their logarithms add up to 0, so that what is
   /// linear in them may be left out.
   template<class P>
@@ -79,11 +88,6 @@ struct Ogden {
         sum += 2 * m.value[t] / (m.value[t + 1] * m.value[t + 1]) *
                exponential_beyond_linear(m.value[t + 1] * (x[i] - mean));
     return sum;
-  }
-  /// kappa/4 (J² - 1 - 2 ln J)
-  template<class P>
-  SPRINGPROOF_INLINE static P volume_energy(const P& dilatation, const Parameters<P>& m) {
-    return m.value[0] / 4 * exponential_beyond_linear(2 * log1p_of(dilatation));
   }
 };
 

@@ -19,6 +19,7 @@
 namespace springproof::cases {
 struct LinearElastic;
 struct Ogden;
+struct Yeoh;
 } // namespace springproof::cases
 
 namespace springproof::mechanics {
@@ -37,7 +38,8 @@ struct Upper {
   }
 };
 
-/// What parameters_of() makes of a material: mu, kappa; Ogden's: kappa, then mu and alpha of every term.
+/// What parameters_of() makes of a material: mu, kappa; Ogden's: kappa, then mu and alpha of every term;
+/// Yeoh's: kappa, c10, c20, c30.
 template<class P>
 struct Parameters {
   static constexpr int most = 17; ///< Ogden's with eight terms

@@ -22,11 +22,14 @@ inline Parameters<double> parameters_of(const cases::LinearElastic& material) {
   return {{moduli.mu, moduli.kappa}, 2};
 }
 inline Parameters<double> parameters_of(const cases::Ogden& material) {
-  std::vector<double> values{bulk_modulus(material)};
+  std::vector<double> values{elastic_moduli(cases::at_rest(material)).kappa};
   for (std::size_t term = 0; term < material.mu.size(); ++term)
     values.insert(values.end(), {material.mu[term], material.alpha[term]});
   const auto n = static_cast<int>(values.size());
   return {std::move(values), n};
+}
+inline Parameters<double> parameters_of(const cases::Yeoh& material) {
+  return {{elastic_moduli(cases::at_rest(material)).kappa, material.c10, material.c20, material.c30}, 4};
 }
 
 /// The part of the Kirchhoff stress that is no pressure, in principal axes, MPa.

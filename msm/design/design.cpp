@@ -50,8 +50,8 @@ DesignResult from_linear_method(const DesignRequest& request) {
 }
 
 DesignResult from_moduli_method(const DesignRequest& request) {
-  // E = 3 mu, G = mu is the finite limit of incompressibility, which an Ogden material without bulk modulus
-  // means.
+  // E = 3 mu, G = mu is the finite limit of incompressibility, which a hyperelastic material without bulk
+  // modulus means.
   const cases::LinearElastic material =
       is_incompressible(request) ? small_strain_material(request.material) : designed_material(request, -1);
   const double mu = mechanics::elastic_moduli(material).mu;
@@ -79,9 +79,9 @@ DesignResult from_hybrid_method(const DesignRequest& request) {
 DesignResult from_matched_method(const DesignRequest& request) {
   DesignResult result = from_hybrid_method(request);
   if (request.options.exponent) return result;
-  const bool is_ogden = std::holds_alternative<cases::Ogden>(request.material);
-  const cases::Material material =
-      is_ogden ? request.material : cases::Material(designed_material(request, 0));
+  const cases::Material material = cases::is_hyperelastic(request.material)
+                                       ? request.material
+                                       : cases::Material(designed_material(request, 0));
   const MatchedFit fit = matched_exponents(material, elastic_moduli(request), split(request),
                                            request.options.strain_range.value_or(matched_range));
   result.stiffness.exponents = fit.exponents;
@@ -275,6 +275,8 @@ UniaxialCurve uniaxial_reference(const DesignRequest& request, std::optional<dou
   if (largest_strain) range.highest = *largest_strain;
   if (const auto* ogden = std::get_if<cases::Ogden>(&request.material))
     return sample(ogden_law(*ogden), nu, range);
+  if (const auto* yeoh = std::get_if<cases::Yeoh>(&request.material))
+    return sample(yeoh_law({yeoh->c10, yeoh->c20, yeoh->c30}), nu, range);
   const double youngs_modulus = std::get<cases::LinearElastic>(request.material).youngs_modulus;
   if (!(youngs_modulus > 0) || !std::isfinite(youngs_modulus))
     refuse(request, "Young's modulus: must be positive and finite");

@@ -3,8 +3,8 @@
 #include "cases/case/error.hpp"
 #include "cases/case/names.hpp"
 #include "mechanics/laws/log_strain.hpp"
-#include "mechanics/laws/ogden.hpp"
 #include "mechanics/laws/principal_stress.hpp"
+#include "mechanics/laws/yeoh.hpp"
 #include "msm/design/cells.hpp"
 #include "msm/design/design.hpp"
 #include "msm/design/minimise.hpp"
@@ -44,9 +44,10 @@ int free_axis(LoadPath path) {
   return path == LoadPath::uniaxial ? 0 : path == LoadPath::simple_shear ? 1 : 2;
 }
 
-Eigen::Matrix3d ogden_stress(const cases::Ogden& ogden, const Eigen::Matrix3d& f, int free) {
+template<class Law>
+Eigen::Matrix3d stress_of(const typename Law::Material& material, const Eigen::Matrix3d& f, int free) {
   const Eigen::Matrix3d stress =
-      mechanics::cauchy_stress_without_pressure<mechanics::Ogden>(mechanics::parameters_of(ogden), f);
+      mechanics::cauchy_stress_without_pressure<Law>(mechanics::parameters_of(material), f);
   return stress - stress(free, free) * Eigen::Matrix3d::Identity();
 }
 
@@ -244,16 +245,18 @@ FittedExponents fit_exponents(const Fit& fit, double start, const std::optional<
 
 Fit multi_load_fit(const cases::Material& material, double edge, const MultiLoadSettings& settings) {
   check(settings);
-  const bool holds_volume = settings.has_volume_term && std::holds_alternative<cases::Ogden>(material);
+  const bool holds_volume = settings.has_volume_term && cases::is_hyperelastic(material);
   return {"multi-load design", material, edge, settings, holds_volume ? Part::deviator : Part::all};
 }
 
 } // namespace
 
 MaterialState material_state(const cases::Material& material, LoadPath path, double strain) {
-  if (const auto* ogden = std::get_if<cases::Ogden>(&material)) {
+  if (cases::is_hyperelastic(material)) {
     const Eigen::Matrix3d f = deformation(path, strain, 0.5);
-    return {f, ogden_stress(*ogden, f, free_axis(path))};
+    const auto* yeoh = std::get_if<cases::Yeoh>(&material);
+    return {f, yeoh ? stress_of<mechanics::Yeoh>(*yeoh, f, free_axis(path))
+                    : stress_of<mechanics::Ogden>(std::get<cases::Ogden>(material), f, free_axis(path))};
   }
   const auto& linear = std::get<cases::LinearElastic>(material);
   if (!(linear.youngs_modulus > 0) || !(linear.poissons_ratio > -1 && linear.poissons_ratio < 0.5))
@@ -271,9 +274,9 @@ MultiLoadFit multi_load_method(const cases::Material& material, double edge,
 MultiLoadFit multi_load_with_exponents(const cases::Material& material, double edge,
                                        const MultiLoadSettings& settings, double exponent) {
   const Fit fit = multi_load_fit(material, edge, settings);
-  const bool is_ogden = std::holds_alternative<cases::Ogden>(material);
+  const bool is_hyperelastic = cases::is_hyperelastic(material);
   const FittedExponents found =
-      fit_exponents(fit, exponent, is_ogden ? lowest_ogden_exponent : lowest_exponent);
+      fit_exponents(fit, exponent, is_hyperelastic ? lowest_ogden_exponent : lowest_exponent);
   const MultiLoadFit fitted = fit.result(found.unknowns, found.exponents);
   const auto is_stable = [&](const MultiLoadFit& of) {
     return is_stable_over({settings.lowest_strain, settings.highest_strain}, of.stiffness, edge);
@@ -294,10 +297,11 @@ MultiLoadFit multi_load_with_exponents(const cases::Material& material, double e
 
 double second_order_coefficient(const cases::Material& material, double poissons_ratio) {
   const double nu = poissons_ratio;
-  const auto* ogden = std::get_if<cases::Ogden>(&material);
-  if (ogden == nullptr) return -(0.5 + 2 * nu);
-  const double mean_alpha = std::inner_product(ogden->mu.begin(), ogden->mu.end(), ogden->alpha.begin(), 0.) /
-                            mechanics::shear_modulus(*ogden);
+  if (!cases::is_hyperelastic(material)) return -(0.5 + 2 * nu);
+  double mean_alpha = 2; // Yeoh's: powers of I - 3 from the second on are of fourth order and more
+  if (const auto* ogden = std::get_if<cases::Ogden>(&material))
+    mean_alpha = std::inner_product(ogden->mu.begin(), ogden->mu.end(), ogden->alpha.begin(), 0.) /
+                 cases::at_rest(*ogden).shear_modulus;
   return -1.5 + mean_alpha * (1 + nu) * (1 + nu) / 9 + (1 - 2 * nu) * (1 - 2 * nu) / 3;
 }
 
@@ -324,9 +328,9 @@ MatchedFit matched_exponents(const cases::Material& material, const mechanics::E
   const MultiLoadSettings settings{
       {LoadPath::uniaxial, LoadPath::pure_shear}, {0.5, 0.5}, strain_range[0], strain_range[1], false, 0};
   const Fit fit("matched design", material, 1, settings, Part::deviator);
-  const bool is_ogden = std::holds_alternative<cases::Ogden>(material);
-  const FittedExponents found =
-      fit_exponents(fit, start, is_ogden ? std::optional(lowest_ogden_exponent) : std::nullopt, springs);
+  const bool is_hyperelastic = cases::is_hyperelastic(material);
+  const FittedExponents found = fit_exponents(
+      fit, start, is_hyperelastic ? std::optional(lowest_ogden_exponent) : std::nullopt, springs);
   return {found.exponents, found.objective};
 }
 

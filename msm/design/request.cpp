@@ -81,8 +81,8 @@ double split(const DesignRequest& request) {
 }
 
 bool is_incompressible(const DesignRequest& request) {
-  const auto* ogden = std::get_if<cases::Ogden>(&request.material);
-  return ogden != nullptr && !ogden->bulk_modulus && !request.options.poissons_ratio;
+  const auto rest = cases::hyperelastic_rest(request.material);
+  return rest && !rest->bulk_modulus && !request.options.poissons_ratio;
 }
 
 mechanics::ElasticModuli elastic_moduli(const DesignRequest& request) {

@@ -27,8 +27,8 @@ struct DesignRequest {
 [[noreturn]] void refuse(const DesignRequest& request, const std::string& problem);
 
 template<class Value>
-Value by_material(const DesignRequest& request, const Value& ogden, const Value& linear_elastic) {
-  return std::holds_alternative<cases::Ogden>(request.material) ? ogden : linear_elastic;
+Value by_material(const DesignRequest& request, const Value& hyperelastic, const Value& linear_elastic) {
+  return cases::is_hyperelastic(request.material) ? hyperelastic : linear_elastic;
 }
 
 /// The small-strain material that the design is made for: options.poissons_ratio replaces the material's own,
@@ -36,7 +36,7 @@ Value by_material(const DesignRequest& request, const Value& ogden, const Value&
 /// @throws InputError unless E > 0 and nu lies in [lowest, 0.5)
 cases::LinearElastic designed_material(const DesignRequest& request, double lowest_poissons_ratio);
 
-/// Whether the material is an Ogden one without a bulk modulus and the case names no Poisson's ratio.
+/// Whether the material is hyperelastic without a bulk modulus and the case names no Poisson's ratio.
 bool is_incompressible(const DesignRequest& request);
 
 /// Moduli of designed_material(), or of a nearly incompressible stand-in where is_incompressible().

@@ -14,10 +14,9 @@ cases::LinearElastic small_strain_material(const cases::Material& material) {
   if (std::holds_alternative<cases::TransverselyIsotropic>(material))
     throw cases::InputError(
         "material.model: is \"transversely_isotropic\", and an isotropic material is wanted here");
-  const auto& ogden = std::get<cases::Ogden>(material);
-  const double mu = mechanics::shear_modulus(ogden);
-  if (!ogden.bulk_modulus) return {3 * mu, 0.5};
-  return mechanics::linear_elastic(mu, *ogden.bulk_modulus);
+  const cases::HyperelasticRest rest = cases::hyperelastic_rest(material).value();
+  if (!rest.bulk_modulus) return {3 * rest.shear_modulus, 0.5};
+  return mechanics::linear_elastic(rest.shear_modulus, *rest.bulk_modulus);
 }
 
 std::optional<Elasticity> elasticity_at_rest(const cases::Material& material) {

@@ -6,7 +6,7 @@
 /// those that others published.
 namespace springproof::msm {
 
-/// Small-strain E and nu of a material: Ogden's initial shear modulus is the sum of mu, and nu = 0.5 without
+/// Small-strain E and nu of a material: a hyperelastic one has its moduli at rest, and nu = 0.5 without
 /// a bulk modulus.
 cases::LinearElastic small_strain_material(const cases::Material& material);
 

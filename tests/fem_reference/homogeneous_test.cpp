@@ -23,9 +23,18 @@ Vector3d kirchhoff(const cases::Ogden& m, const Vector3d& stretch) {
   return tau;
 }
 
+Vector3d kirchhoff(const cases::Yeoh& m, const Vector3d& stretch) {
+  const double j = stretch.prod();
+  const Vector3d squares = (stretch / std::cbrt(j)).array().square();
+  const double i = squares.sum() - 3, slope = m.c10 + 2 * m.c20 * i + 3 * m.c30 * i * i;
+  return Vector3d::Constant(*m.bulk_modulus / 2 * (j * j - 1)) +
+         2 * slope * (squares.array() - squares.mean()).matrix();
+}
+
 /// The stretches of a body that is held at `held` along x (and y), and is free of stress otherwise: by
 /// bisection.
-Vector3d equilibrium_stretches(const cases::Ogden& m, double held, int n_constrained) {
+template<class Material>
+Vector3d equilibrium_stretches(const Material& m, double held, int n_constrained) {
   double low = 0.2, high = 5;
   const auto stretches = [&](double free) {
     return n_constrained == 1 ? Vector3d(held, free, free) : Vector3d(held, held, free);
@@ -56,13 +65,19 @@ double shear_stress(const cases::Ogden& m, double gamma) {
   return sum * stretch / (1 + stretch * stretch);
 }
 
+/// The invariant I1 - 3 of simple shear is gamma².
+double shear_stress(const cases::Yeoh& m, double gamma) {
+  const double i = gamma * gamma;
+  return 2 * gamma * (m.c10 + 2 * m.c20 * i + 3 * m.c30 * i * i);
+}
+
 std::vector<cases::Ogden> materials(double bulk_modulus) {
   return {{{0.4}, {2}, bulk_modulus},
           {{0.3, 0.1}, {2, -2}, bulk_modulus},
           {{0.1, 0.2, 0.05}, {5.7255, 0.5, -3}, bulk_modulus}};
 }
 
-cases::Scene one_cell(const cases::Ogden& material, Element element,
+cases::Scene one_cell(const cases::Material& material, Element element,
                       const std::vector<std::string>& normal_supports) {
   cases::Case definition;
   definition.body = cases::Box{Vector3d::Ones(), {1, 1, 1}};
@@ -74,7 +89,7 @@ cases::Scene one_cell(const cases::Ogden& material, Element element,
 }
 
 /// A cube stretched along x, or along x and y, the rest free.
-Solved stretched(const cases::Ogden& material, Element element, double stretch, int n_constrained) {
+Solved stretched(const cases::Material& material, Element element, double stretch, int n_constrained) {
   std::vector<std::string> supports{"x-", "y-", "z-", "x+"};
   if (n_constrained == 2) supports.emplace_back("y+");
   const auto pull = [=](const Vector3d& x) -> Vector3d { return (stretch - 1) * x; };
@@ -85,41 +100,60 @@ bool on_right(const Vector3d& x) {
   return x.x() > 1 - 1e-9;
 }
 
-} // namespace
-
-TEST_CASE("one cell under uniaxial and equibiaxial stretch is the closed form of its Ogden material",
-          "[verification]") {
-  for (const auto& material : materials(2.))
-    for (const Element element : scenes::all_elements)
-      for (const int n_constrained : {1, 2})
-        for (const double stretch : {0.5, 0.8, 1.3, 2.}) {
-          const Solved cell = stretched(material, element, stretch, n_constrained);
-          const Vector3d stretches = equilibrium_stretches(material, stretch, n_constrained);
-          const auto exact = [&](const Vector3d& x) -> Vector3d { return stretches.cwiseProduct(x) - x; };
-          // area times first Piola-Kirchhoff stress tau/lambda
-          const double force = kirchhoff(material, stretches).x() / stretch;
-          CAPTURE(cases::name_of(element), stretch, n_constrained, material.alpha[0]);
-          CHECK(cell.largest_error(exact) <= 1e-8); // what is asked of the project
-          CHECK(std::abs(cell.force_on(on_right).x() - force) <= 1e-8);
-        }
+template<class Material>
+void check_stretches(const Material& material, const std::string& name) {
+  for (const Element element : scenes::all_elements)
+    for (const int n_constrained : {1, 2})
+      for (const double stretch : {0.5, 0.8, 1.3, 2.}) {
+        const Solved cell = stretched(material, element, stretch, n_constrained);
+        const Vector3d stretches = equilibrium_stretches(material, stretch, n_constrained);
+        const auto exact = [&](const Vector3d& x) -> Vector3d { return stretches.cwiseProduct(x) - x; };
+        // area times first Piola-Kirchhoff stress tau/lambda
+        const double force = kirchhoff(material, stretches).x() / stretch;
+        CAPTURE(cases::name_of(element), stretch, n_constrained, name);
+        CHECK(cell.largest_error(exact) <= 1e-8); // what is asked of the project
+        CHECK(std::abs(cell.force_on(on_right).x() - force) <= 1e-8);
+      }
 }
 
-TEST_CASE("one cell in simple shear carries the derivative of its Ogden energy", "[verification]") {
-  for (const auto& material : materials(2.))
-    for (const Element element : scenes::all_elements)
-      for (const double gamma : {0.1, 0.5, 1.5}) { // 1.5: principal stretches 2 and 1/2
-        cases::Scene scene = one_cell(material, element, {"x-", "x+", "y-", "y+", "z-", "z+"});
-        for (auto& fixed : scene.constrained) fixed.components = {true, true, true};
-        const auto shear = [=](const Vector3d& x) -> Vector3d { return {gamma * x.y(), 0, 0}; };
-        const Solved cell(scene, {nullptr, shear});
-        const auto on_top = [](const Vector3d& x) { return x.y() > 1 - 1e-9; };
-        const double force = cell.force_on(on_top).x();
-        // nodes on the side faces' edges carry part of those faces' traction; in a homogeneous state it
-        // cancels between x- and x+
-        CAPTURE(cases::name_of(element), gamma, material.alpha[0]);
-        CHECK(cell.largest_error(shear) <= 1e-8);
-        CHECK(std::abs(force - shear_stress(material, gamma)) <= 1e-8); // what is asked of the project
-      }
+template<class Material>
+void check_shear(const Material& material, const std::string& name) {
+  for (const Element element : scenes::all_elements)
+    for (const double gamma : {0.1, 0.5, 1.5}) { // 1.5: principal stretches 2 and 1/2
+      cases::Scene scene = one_cell(material, element, {"x-", "x+", "y-", "y+", "z-", "z+"});
+      for (auto& fixed : scene.constrained) fixed.components = {true, true, true};
+      const auto shear = [=](const Vector3d& x) -> Vector3d { return {gamma * x.y(), 0, 0}; };
+      const Solved cell(scene, {nullptr, shear});
+      const auto on_top = [](const Vector3d& x) { return x.y() > 1 - 1e-9; };
+      const double force = cell.force_on(on_top).x();
+      // nodes on the side faces' edges carry part of those faces' traction; in a homogeneous state it
+      // cancels between x- and x+
+      CAPTURE(cases::name_of(element), gamma, name);
+      CHECK(cell.largest_error(shear) <= 1e-8);
+      CHECK(std::abs(force - shear_stress(material, gamma)) <= 1e-8); // what is asked of the project
+    }
+}
+
+const cases::Yeoh one_term{0.2, 0, 0, 2.}, three_terms{0.2, -0.02, 0.01, 2.};
+
+} // namespace
+
+TEST_CASE("one cell under uniaxial and equibiaxial stretch is the closed form of its hyperelastic material",
+          "[verification]") {
+  for (const auto& material : materials(2.)) check_stretches(material, std::to_string(material.alpha[0]));
+  for (const auto& material : {one_term, three_terms}) check_stretches(material, "yeoh");
+}
+
+TEST_CASE("one cell in simple shear carries the derivative of its hyperelastic energy", "[verification]") {
+  for (const auto& material : materials(2.)) check_shear(material, std::to_string(material.alpha[0]));
+  for (const auto& material : {one_term, three_terms}) check_shear(material, "yeoh");
+}
+
+TEST_CASE("Yeoh's law of one term is the neo-Hookean one", "[verification]") {
+  const auto force = [](const cases::Material& material) {
+    return stretched(material, Element::q1, 1.7, 1).force_on(on_right).x();
+  };
+  CHECK(std::abs(force(one_term) - force(cases::Ogden{{0.4}, {2}, 2.})) <= 1e-14); // rounding error
 }
 
 TEST_CASE(

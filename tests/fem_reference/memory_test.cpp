@@ -42,8 +42,7 @@ cases::Case oedometer(cases::Formulation formulation, cases::Element element, do
 mechanics::ElasticModuli moduli(const cases::Material& material) {
   if (const auto* linear = std::get_if<cases::LinearElastic>(&material))
     return mechanics::elastic_moduli(*linear);
-  const auto& ogden = std::get<cases::Ogden>(material);
-  return {0, mechanics::shear_modulus(ogden), mechanics::bulk_modulus(ogden)};
+  return mechanics::elastic_moduli(cases::hyperelastic_rest(material).value());
 }
 
 /// Largest distance of the creep from the closed form, over the displacement in the end.

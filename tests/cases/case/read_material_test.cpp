@@ -57,15 +57,35 @@ TEST_CASE("neo-Hookean and Mooney-Rivlin materials are Ogden's by other names") 
   const auto refused = mistakes_in(good_case);
   refused(material, "model = 'mooney_rivlin'\nc10 = 0.1\nc01 = -0.2\n", 11, "material.c01", {"above 0"});
   refused(material, "model = 'neo_hookean'\nmu = 0.1\n", 8, "material.shear_modulus", {"missing"});
-  refused(material, "model = 'yeoh'\n", 9, "material.model", {"mooney_rivlin", "fit --law ogden"});
+}
+
+TEST_CASE("a Yeoh material has one to three coefficients, and the first is above 0") {
+  const std::string material = "model = 'linear_elastic'\nyoungs_modulus = 0.3\npoissons_ratio = 0.35\n";
+  const std::string hyperelastic =
+      replaced(good_case, "formulation = 'log_strain'", "formulation = 'hyperelastic'");
+  const auto yeoh = [&](const std::string& text) {
+    return std::get<Yeoh>(read_text(replaced(hyperelastic, material, "model = 'yeoh'\n" + text)).material);
+  };
+  const Yeoh one = yeoh("c10 = 0.1\n"),
+             three = yeoh("c10 = 0.1\nc20 = -0.02\nc30 = 0.01\nbulk_modulus = 2\n");
+  CHECK(one.c10 == 0.1);
+  CHECK((one.c20 == 0 && one.c30 == 0 && !one.bulk_modulus));
+  CHECK((three.c20 == -0.02 && three.c30 == 0.01 && three.bulk_modulus == 2));
+  CHECK(poissons_ratio_of(one) == 0.5);
+  CHECK(poissons_ratio_of(three) == Approx((3 * 2 - 2 * 0.2) / (2 * (3 * 2 + 0.2))));
+  const auto refused = mistakes_in(hyperelastic);
+  refused(material, "model = 'yeoh'\nc10 = 0\nc20 = 1\n", 10, "material.c10", {"above 0"});
+  refused(material, "model = 'yeoh'\nc20 = 1\n", 8, "material.c10", {"missing"});
+  refused(material, "model = 'yeoh'\nc10 = 1\nc40 = 1\n", 11, "material.c40", {"is not a key"});
+  mistakes_in(good_case)(material, "model = 'yeoh'\nc10 = 1\n", 18, "fem.formulation", {"hyperelastic"});
 }
 
 TEST_CASE("a mistake in [material] is refused where it is made") {
   const std::string material = "model = 'linear_elastic'\nyoungs_modulus = 0.3\npoissons_ratio = 0.35\n";
   const auto refused = mistakes_in(good_case);
-  refused(
-      "model = 'linear_elastic'", "model = 'linear_elastik'", 9, "material.model",
-      {"\"linear_elastic\" | \"ogden\" | \"transversely_isotropic\"", "did you mean \"linear_elastic\"?"});
+  refused("model = 'linear_elastic'", "model = 'linear_elastik'", 9, "material.model",
+          {"\"linear_elastic\" | \"ogden\" | \"transversely_isotropic\" | \"yeoh\"",
+           "did you mean \"linear_elastic\"?"});
   refused("youngs_modulus = 0.3", "youngs_modulus = 0", 10, "material.youngs_modulus",
           {"is 0", "above 0 (MPa)"});
   refused("youngs_modulus = 0.3", "youngs_modulus = 1e-300", 10, "material.youngs_modulus",

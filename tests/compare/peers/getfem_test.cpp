@@ -144,7 +144,9 @@ TEST_CASE("GetFEM's elements have the uniform strain of each law, with and witho
       {"fem.formulation=log_strain"},
       {"fem.formulation=log_strain", "material.poissons_ratio=0.48"},
       {"fem.formulation=hyperelastic", ogden + "0.2}"},
-      {"fem.formulation=hyperelastic", ogden + "3}"}};
+      {"fem.formulation=hyperelastic", ogden + "3}"},
+      {"fem.formulation=hyperelastic",
+       R"(material={model="yeoh",c10=0.05,c20=-0.01,c30=0.02,bulk_modulus=3})"}};
   for (std::vector<std::string> settings : laws) {
     // held on three planes, pulled sideways alike and stretched along z, it is a cuboid
     settings.insert(settings.end(),

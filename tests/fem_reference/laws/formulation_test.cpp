@@ -19,6 +19,7 @@ namespace {
 
 const auto log_strain = point_law<LogStrain>;
 const auto ogden = point_law<Ogden>;
+const auto yeoh = point_law<Yeoh>;
 
 struct Named {
   std::string name;
@@ -36,7 +37,8 @@ std::vector<Named> formulations() {
           {"log_strain with a fibre", point_law<TransverseLogStrain>(scenes::fibrous({1, 2, -0.5}))},
           {"neo-Hooke", ogden({{0.5}, {2}, 2.})},
           {"Mooney-Rivlin", ogden({{0.3, 0.2}, {2, -2}, 2.})},
-          {"Ogden", ogden({{0.1, 0.2, -0.05}, {5.7255, 0.5, -3.}, 2.})}};
+          {"Ogden", ogden({{0.1, 0.2, -0.05}, {5.7255, 0.5, -3.}, 2.})},
+          {"Yeoh", yeoh({0.2, -0.05, 0.1, 2.})}};
 }
 
 Matrix3 turn(double angle) {
@@ -103,7 +105,7 @@ TEST_CASE("the stress is the derivative of the energy, where there is one", "[ve
     CHECK(std::abs(law.energy(Matrix3::Identity())) <= 1e-28);
     if (law.kinematics == Kinematics::finite) CHECK(law.energy(turn(0.8)) <= 1e-14); // rounding
   }
-  CHECK(n_laws == 7);
+  CHECK(n_laws == 8);
 }
 
 TEST_CASE("the energy of log_strain is the work on the straight path of logarithmic strain",
@@ -168,10 +170,24 @@ TEST_CASE("every law has the moduli of linear elasticity at rest", "[verificatio
   const cases::LinearElastic elastic{9 * kappa * mu / (3 * kappa + mu),
                                      (3 * kappa - 2 * mu) / (6 * kappa + 2 * mu)};
   const Matrix9 linear = whole_tangent(point_law<SmallStrain>(elastic), Matrix3::Identity());
-  for (const auto& finite : {point_law<SaintVenantKirchhoff>(elastic), log_strain(elastic),
-                             ogden({{mu}, {2}, kappa}), ogden({{0.5, -0.1}, {5, -2.5}, kappa})})
+  for (const auto& finite :
+       {point_law<SaintVenantKirchhoff>(elastic), log_strain(elastic), ogden({{mu}, {2}, kappa}),
+        ogden({{0.5, -0.1}, {5, -2.5}, kappa}), yeoh({mu / 2, 0.3, -0.1, kappa})})
     CHECK((whole_tangent(finite, Matrix3::Identity()) - linear).norm() <=
           1e-13 * linear.norm()); // rounding error
+}
+
+TEST_CASE("Yeoh's law of two terms is Ogden's of three", "[verification]") {
+  // (l1² + l2² + l3²)² = l1⁴ + l2⁴ + l3⁴ + 2 (l1^-2 + l2^-2 + l3^-2) of isochoric stretches
+  const double c10 = 0.2, c20 = -0.05;
+  const PointLaw two = yeoh({c10, c20, 0, 2.}),
+                 three = ogden({{2 * c10 - 12 * c20, 8 * c20, 4 * c20}, {2, 4, -2}, 2.});
+  for (const auto& [state, f] : states) {
+    CAPTURE(state);
+    const Matrix9 tangent = whole_tangent(three, f);
+    CHECK((whole_stress(two, f) - whole_stress(three, f)).norm() <= 1e-13 * tangent.norm()); // rounding
+    CHECK((whole_tangent(two, f) - tangent).norm() <= 1e-13 * tangent.norm());
+  }
 }
 
 TEST_CASE("log_strain is Hooke's law between Cauchy stress and the logarithm of the left stretch",

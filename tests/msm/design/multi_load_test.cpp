@@ -2,8 +2,8 @@
 
 #include "cases/case/error.hpp"
 #include "mechanics/laws/log_strain.hpp"
-#include "mechanics/laws/ogden.hpp"
 #include "mechanics/laws/principal_stress.hpp"
+#include "mechanics/laws/yeoh.hpp"
 #include "msm/design/cells.hpp"
 #include "msm/design/design.hpp"
 #include "tests/support/bodies.hpp"
@@ -214,10 +214,15 @@ TEST_CASE("the second-order coefficient is the one of the material's own law", "
         Approx(coefficient_of([&](double l) { return nominal_stress<mechanics::LogStrain>(linear, l); }, 0.3))
             .epsilon(difference_error));
   cases::Ogden two_terms{{0.03, -0.01}, {1.7, -6}, std::nullopt};
-  const double mu = mechanics::shear_modulus(two_terms);
+  const double mu = cases::at_rest(two_terms).shear_modulus;
   two_terms.bulk_modulus = moduli_of(mu, nu).kappa;
   CHECK(msm::second_order_coefficient(two_terms, nu) ==
         Approx(coefficient_of([&](double l) { return nominal_stress<mechanics::Ogden>(two_terms, l); },
+                              2 * mu * (1 + nu)))
+            .margin(difference_error));
+  const cases::Yeoh yeoh{mu / 2, 0.1, -0.05, two_terms.bulk_modulus};
+  CHECK(msm::second_order_coefficient(yeoh, nu) ==
+        Approx(coefficient_of([&](double l) { return nominal_stress<mechanics::Yeoh>(yeoh, l); },
                               2 * mu * (1 + nu)))
             .margin(difference_error));
 }
