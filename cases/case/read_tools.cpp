@@ -8,28 +8,37 @@ namespace {
 struct ToolKeys {
   Table& table;
   Tool& tool;
+  const std::string& case_path;
 
   void operator()(tools::Sphere& sphere) const {
     read_place("centre");
     sphere.radius = radius();
-    leave_out({"axis", "normal", "point"}, "sphere");
+    leave_out({"axis", "file", "normal", "point", "scale"}, "sphere");
   }
   void operator()(tools::Cylinder& cylinder) const {
     read_place("centre");
     cylinder.radius = radius();
     cylinder.axis = table.required("axis", read_direction);
-    leave_out({"normal", "point"}, "cylinder");
+    leave_out({"file", "normal", "point", "scale"}, "cylinder");
   }
   void operator()(tools::Punch& punch) const {
     read_place("centre");
     punch.radius = radius();
     punch.axis = table.required("axis", read_direction);
-    leave_out({"normal", "point"}, "punch");
+    leave_out({"file", "normal", "point", "scale"}, "punch");
   }
   void operator()(tools::Plane& plane) const {
     read_place("point");
     plane.normal = table.required("normal", read_direction);
-    leave_out({"axis", "centre", "radius"}, "plane");
+    leave_out({"axis", "centre", "file", "radius", "scale"}, "plane");
+  }
+  void operator()(tools::Surface& surface) const {
+    table.know({"centre"});
+    if (table.has("centre") || table.has("path")) read_place("centre");
+    surface.file = read_file_name(table.entry("file"), {".stl", ".obj", ".ply", ".vtp"},
+                                  "a closed surface, .stl, .obj, .ply or .vtp", case_path);
+    surface.scale = read_scale(table);
+    leave_out({"axis", "normal", "point", "radius"}, "surface");
   }
 
  private:
@@ -78,7 +87,7 @@ Tool read_tool(Table& keys, const Case& definition) {
   for (const Tool& other : definition.tools)
     if (other.name == tool.name) keys.entry("name").refuse("a new name: another tool has this one");
   tool.shape = keys.required("shape", read_kind<tools::Kind>);
-  std::visit(ToolKeys{keys, tool}, tool.shape);
+  std::visit(ToolKeys{keys, tool, definition.file}, tool.shape);
   read_way(keys, definition, tool);
   keys.refuse_unless(!definition.dynamics, {"steps"},
                      "left out beside [dynamics]: its step is the tool's too");

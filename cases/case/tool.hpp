@@ -38,7 +38,17 @@ struct Plane {
 };
 SPRINGPROOF_FIELDS(Plane, normal)
 
-using Kind = std::variant<Sphere, Cylinder, Punch, Plane>;
+/// What the triangles of a file (STL, OBJ, PLY, VTP) enclose; Tool::at is the file's origin.
+struct Surface {
+  static constexpr const char* name = "surface";
+  NamedFile file{};
+  double scale = 1;                            ///< mm of a unit of the file
+  std::vector<Eigen::Vector3d> vertices{};     ///< mm, from Tool::at; make_scene() reads them
+  std::vector<std::array<int, 3>> triangles{}; ///< numbers of vertices, from outside anticlockwise
+};
+SPRINGPROOF_FIELDS(Surface, file, scale, vertices, triangles)
+
+using Kind = std::variant<Sphere, Cylinder, Punch, Plane, Surface>;
 
 } // namespace tools
 

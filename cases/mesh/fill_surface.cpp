@@ -1,6 +1,7 @@
 #include "cases/mesh/fill_surface.hpp"
 
 #include "cases/case/installation.hpp"
+#include "cases/mesh/closed_surface.hpp"
 #include "cases/mesh/confined.hpp"
 #include "cases/mesh/fields.hpp"
 #include "cases/mesh/read_mesh.hpp"
@@ -8,8 +9,8 @@
 #include "cases/mesh/vtk_functions.hpp"
 
 #include <algorithm>
-#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
+#include <numeric>
 
 namespace springproof::cases {
 
@@ -26,48 +27,8 @@ const double volume_of_regular = 1 / (6 * std::sqrt(2.));
 const double area_of_regular = std::sqrt(3.) / 4; ///< the same of its faces, over the square
 
 double enclosed_volume(const TriangleMesh& surface) {
-  double volume = 0;
-  for (const auto& [a, b, c] : surface.triangles)
-    volume +=
-        surface.vertices[index(a)].dot(surface.vertices[index(b)].cross(surface.vertices[index(c)])) / 6;
-  return std::abs(volume);
-}
-
-double area_of(const TriangleMesh& surface) {
-  double area = 0;
-  for (const auto& triangle : surface.triangles) area += doubled_area(triangle, surface.vertices).norm() / 2;
-  return area;
-}
-
-std::string place_of(const Vector3d& point) {
-  return fmt::format("({:.6g})", fmt::join(point, ", "));
-}
-
-/// Checks that every edge has two triangles.
-void check_is_closed(const TriangleMesh& surface, const FilledSurface& body) {
-  std::map<std::array<int, 2>, int> n_triangles;
-  for (const auto& triangle : surface.triangles)
-    for (std::size_t v = 0; v < 3; ++v) ++n_triangles[sorted(std::array{triangle[v], triangle[(v + 1) % 3]})];
-  const auto refuse_if = [&](const auto& is_wrong, const std::string& what, const std::string& remedy) {
-    const auto counts = [&](const auto& entry) { return is_wrong(entry.second); };
-    const auto first = std::find_if(n_triangles.begin(), n_triangles.end(), counts);
-    if (first == n_triangles.end()) return;
-    const auto& [a, b] = first->first;
-    body.file.refuse(fmt::format(what, std::count_if(n_triangles.begin(), n_triangles.end(), counts)) +
-                     fmt::format(", one of them from {} to {} mm: ", place_of(surface.vertices[index(a)]),
-                                 place_of(surface.vertices[index(b)])) +
-                     remedy);
-  };
-  refuse_if([](int n) { return n == 1; }, "is open: {} of its edges belong to one triangle",
-            "close its holes (MeshLab: Filters, Remeshing, Close Holes)");
-  refuse_if([](int n) { return n > 2; },
-            "is no surface of one body: {} of its edges belong to more than two triangles",
-            "take parts that touch apart (MeshLab: Repair Non Manifold Edges), or fill = \"cubes\"");
-  if (const std::size_t n = n_open_edges(surface))
-    body.file.refuse(
-        fmt::format("has triangles that are turned over: {} of its edges run the same way in both of "
-                    "their triangles; turn them (MeshLab: Re-Orient All Faces Coherently)",
-                    n / 2));
+  const std::vector<double> volumes = volumes_of_parts(surface);
+  return std::abs(std::accumulate(volumes.begin(), volumes.end(), 0.));
 }
 
 /// Reads the surface in mm.
@@ -76,20 +37,6 @@ Surface scaled_surface(const FilledSurface& body, std::vector<std::string>* rema
   for (auto& triangle : surface)
     for (Vector3d& vertex : triangle) vertex *= body.scale;
   return surface;
-}
-
-/// Number of parts that share no vertex: bodies of their own, bodies that overlap, or cavities.
-std::size_t n_parts(const TriangleMesh& surface) {
-  boost::disjoint_sets_with_storage<> parts(surface.vertices.size());
-  std::vector<bool> is_used(surface.vertices.size(), false);
-  for (const auto& triangle : surface.triangles)
-    for (const int vertex : triangle) {
-      parts.union_set(index(triangle[0]), index(vertex));
-      is_used[index(vertex)] = true;
-    }
-  std::size_t n = 0;
-  for (std::size_t v = 0; v < is_used.size(); ++v) n += is_used[v] && parts.find_set(v) == v ? 1 : 0;
-  return n;
 }
 
 bool has_cells(const MeshFileContent& content) {
@@ -145,11 +92,10 @@ MeshWithRemarks filled_by_gmsh(TriangleMesh surface, const FilledSurface& body, 
 
 Mesh fill_with_tetrahedra(const TriangleMesh& surface, const FilledSurface& body,
                           std::vector<std::string>& remarks) {
-  check_is_closed(surface, body);
+  check_is_closed(surface, body.file, ", or fill = \"cubes\"");
   const Vector3d extent = bounding_box(surface.vertices).sizes();
   const double area = area_of(surface);
-  constexpr double flat = 1e-9;
-  if (!(enclosed_volume(surface) > flat * area * extent.maxCoeff()))
+  if (!has_volume(surface))
     body.file.refuse("encloses no volume: its triangles lie in a plane, or double each other");
   // A flat body has two tetrahedra and more for each triangle of its surface.
   const double n_cells = std::max(enclosed_volume(surface) / (volume_of_regular * std::pow(body.size, 3)),
@@ -169,7 +115,7 @@ Mesh fill_with_tetrahedra(const TriangleMesh& surface, const FilledSurface& body
     for (const std::string& remark : filled.remarks) remarks.push_back(body.file.path + ": " + remark);
     return std::move(filled.mesh);
   } catch (const std::exception& error) {
-    if (const std::size_t n = n_parts(surface); n > 1)
+    if (const std::size_t n = volumes_of_parts(surface).size(); n > 1)
       body.file.refuse(
           fmt::format("cannot be filled with tetrahedra ({}): it has {} parts that share no vertex. "
                       "Those that overlap must be united (Blender: Boolean, Union), or fill = "

@@ -66,11 +66,6 @@ std::size_t leave_once(Surface& surface) {
   return n;
 }
 
-bool has_no_area(const std::array<Eigen::Vector3d, 3>& triangle) {
-  const Eigen::Vector3d a = triangle[1] - triangle[0], b = triangle[2] - triangle[0];
-  return !(a.cross(b).norm() > std::numeric_limits<float>::epsilon() * a.norm() * b.norm());
-}
-
 TriangleMesh with_triangles(const Surface& surface) {
   TriangleMesh mesh = joined(surface);
   if (mesh.triangles.empty()) throw std::runtime_error("has no triangle with three different corners");

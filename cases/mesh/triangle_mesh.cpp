@@ -2,10 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 namespace springproof::cases {
 
 using Eigen::Vector3d;
+
+bool has_no_area(const std::array<Vector3d, 3>& triangle) {
+  const Vector3d a = triangle[1] - triangle[0], b = triangle[2] - triangle[0];
+  return !(a.cross(b).norm() > std::numeric_limits<float>::epsilon() * a.norm() * b.norm());
+}
 
 TriangleMesh joined(const Surface& surface) {
   TriangleMesh mesh;

@@ -7,6 +7,9 @@ namespace springproof::cases {
 /// A surface of triangles, seen from outside anticlockwise, whose corners have no numbers; mm.
 using Surface = std::vector<std::array<Eigen::Vector3d, 3>>;
 
+/// Whether the corners are in a line, to single precision.
+bool has_no_area(const std::array<Eigen::Vector3d, 3>& triangle);
+
 /// A surface of triangles that share their vertices.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;     ///< mm

@@ -290,6 +290,7 @@ Scene make_scene(const Case& case_as_read) {
   Scene scene;
   scene.definition = case_as_read;
   const Case& definition = scene.definition;
+  read_surfaces(scene.definition.tools, scene.remarks);
   const std::optional<Placement> placement = leave_world(scene.definition, scene.remarks);
   scene.mesh = cut(make_mesh(definition.body, scene.remarks, scene.node_masses), definition.removed);
   const bool is_tetrahedron = scene.mesh.shape == CellShape::tetrahedron;

@@ -1,11 +1,24 @@
 #include "cases/scene/tools.hpp"
 
+#include "cases/mesh/closed_surface.hpp"
+#include "cases/mesh/voxels.hpp"
 #include "cases/scene/regions.hpp"
 
 #include <algorithm>
 #include <set>
 
 namespace springproof::cases {
+
+void read_surfaces(std::vector<Tool>& tools, std::vector<std::string>& remarks) {
+  for (Tool& tool : tools) {
+    auto* const surface = std::get_if<tools::Surface>(&tool.shape);
+    if (!surface || !surface->triangles.empty()) continue; // a scene's own case has been read
+    TriangleMesh read =
+        rigid_surface(read_body_surface(surface->file, &remarks), surface->scale, surface->file, remarks);
+    surface->vertices = std::move(read.vertices);
+    surface->triangles = std::move(read.triangles);
+  }
+}
 
 std::vector<FaceNodes> touched_faces(const Scene& scene, const Tool& tool) {
   std::vector<FaceNodes> faces = surface_faces(scene.mesh, scene.definition.symmetry);

@@ -4,6 +4,11 @@
 
 namespace springproof::cases {
 
+/// Reads the surfaces of files that tools are.
+/// @param remarks  what was left out of the files, or turned
+/// @throws InputError, at the file's name, if it cannot be read or is no rigid_surface()
+void read_surfaces(std::vector<Tool>& tools, std::vector<std::string>& remarks);
+
 /// The faces of the body's surface that a tool may touch: those of its region, or all. Planes of symmetry are
 /// no part of the surface.
 /// @param scene  also a refined one

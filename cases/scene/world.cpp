@@ -80,6 +80,8 @@ struct LeaveWorld {
       if constexpr (std::is_same_v<Shape, tools::Cylinder> || std::is_same_v<Shape, tools::Punch>)
         direction(shape.axis);
       if constexpr (std::is_same_v<Shape, tools::Plane>) direction(shape.normal);
+      if constexpr (std::is_same_v<Shape, tools::Surface>)
+        for (Vector3d& vertex : shape.vertices) direction(vertex);
     };
     std::visit(of_shape, tool.shape);
   }

@@ -105,6 +105,13 @@ function tool_mesh(tool, size) {
     geometry.rotateX(Math.PI / 2);
     if (tool.shape === "punch") geometry.translate(0, 0, -long / 2); // it ends in its flat end
   }
+  if (tool.shape === "surface") {
+    geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.Float32BufferAttribute(tool.vertices, 3));
+    geometry.setIndex(tool.triangles);
+    geometry = geometry.toNonIndexed(); // facets have normals of their own
+    geometry.computeVertexNormals();
+  }
   const mesh = new THREE.Mesh(geometry, material);
   mesh.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), axis);
   return mesh;

@@ -115,6 +115,16 @@ DrawnSurface drawn_surface(const mechanics::EmbeddedSurface& surface, const std:
   return drawn;
 }
 
+/// The surface in fewer triangles, or as it is where it is small or cannot be had in fewer.
+cases::TriangleMesh few_triangles(const cases::TriangleMesh& fine) {
+  if (fine.triangles.size() <= coarse_triangles) return fine;
+  try {
+    return cases::decimated(fine, coarse_triangles);
+  } catch (const std::runtime_error&) {
+    return fine;
+  }
+}
+
 /// What the page draws of a tool.
 nlohmann::ordered_json described(const cases::Tool& tool) {
   nlohmann::ordered_json all{{"name", tool.name}};
@@ -124,7 +134,15 @@ nlohmann::ordered_json described(const cases::Tool& tool) {
         using namespace cases::tools;
         const auto numbers = [](const Vector3d& of) { return std::vector<double>(of.begin(), of.end()); };
         all["shape"] = Shape::name;
-        if constexpr (!std::is_same_v<Shape, Plane>) all["radius"] = shape.radius;
+        if constexpr (std::is_same_v<Shape, Surface>) {
+          const cases::TriangleMesh drawn = few_triangles({shape.vertices, shape.triangles});
+          for (const Vector3d& vertex : drawn.vertices)
+            for (const double x : vertex) all["vertices"].push_back(static_cast<float>(x));
+          for (const auto& triangle : drawn.triangles)
+            for (const int vertex : triangle) all["triangles"].push_back(vertex);
+        } else if constexpr (!std::is_same_v<Shape, Plane>) {
+          all["radius"] = shape.radius;
+        }
         if constexpr (std::is_same_v<Shape, Plane>) all["axis"] = numbers(shape.normal);
         if constexpr (std::is_same_v<Shape, Cylinder> || std::is_same_v<Shape, Punch>)
           all["axis"] = numbers(shape.axis);

@@ -83,8 +83,9 @@ class Simulation {
   void stop(); ///< joins the thread
 
   /// {"name", "description", "masses", "cells", "unknowns", "method", "step_s", "triangles", "spheres",
-  /// "radius", "tools": [{"name", "shape", "radius", "axis"}]}; an axis is a cylinder's or a punch's, or a
-  /// plane's normal
+  /// "radius", "tools": [{"name", "shape", "radius", "axis", "vertices", "triangles"}]}; an axis is a
+  /// cylinder's or a punch's, or a plane's normal; vertices (mm, from its place) and triangles are a
+  /// surface's, one after the other
   const std::string& description() const { return description_; }
   /// What the page draws: see DrawnSurface in simulation.cpp, whose nodes are in the order of a frame.
   const std::string& geometry() const { return geometry_; }

@@ -148,9 +148,13 @@ std::optional<std::string> reason_without_contact(const cases::Case& definition)
   if (definition.dynamics)
     return fmt::format("[[tool]] \"{}\" moves in time, and its contact is at rest",
                        definition.tools.front().name);
-  for (const cases::Tool& tool : definition.tools)
+  for (const cases::Tool& tool : definition.tools) {
     if (tool.friction > 0)
       return fmt::format("[[tool]] \"{}\" has friction, and its input has none", tool.name);
+    if (std::holds_alternative<cases::tools::Surface>(tool.shape))
+      return fmt::format("[[tool]] \"{}\" is a surface of a file, which its input has no cells for",
+                         tool.name);
+  }
   if (cases::facts_of(definition.fem.element).degree > 1)
     return fmt::format("its contact of nodes with tools is for elements q1 and p1, not {}",
                        cases::name_of(definition.fem.element));

@@ -160,13 +160,17 @@ ToolMesh facets_of(const cases::tools::Plane& plane, const Wanted& wanted) {
 /// one that stands still a hundredth of the body.
 double indentation(const cases::Scene& scene, const cases::Tool& tool, double size_of_body) {
   double deepest = 0;
+  const mechanics::DistanceAt distance = mechanics::distance_from(tool.shape);
   for (const cases::FaceNodes& face : cases::touched_faces(scene, tool))
     for (const int node : face)
-      deepest = std::max(deepest, -mechanics::signed_distance(
-                                       tool.shape, scene.mesh.nodes[cases::index(node)] - tool.place(1))
-                                       .value);
+      deepest = std::max(deepest, -distance(scene.mesh.nodes[cases::index(node)] - tool.place(1)).value);
   if (deepest > 0) return deepest;
   return tool.moves() ? tool.displacement.norm() : 0.01 * size_of_body;
+}
+
+/// reason_without_calculix() has said so.
+ToolMesh facets_of(const cases::tools::Surface&, const Wanted&) {
+  throw std::logic_error("CalculiX has no cells for a surface of a file");
 }
 
 } // namespace

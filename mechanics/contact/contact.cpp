@@ -3,7 +3,6 @@
 #include "cases/case/error.hpp"
 #include "cases/scene/loads.hpp"
 #include "cases/scene/tools.hpp"
-#include "mechanics/contact/signed_distance.hpp"
 #include "mechanics/elastic_moduli.hpp"
 
 #include <algorithm>
@@ -37,7 +36,16 @@ double modulus_of(const cases::TransverselyIsotropic& material) {
   return std::max(material.youngs_modulus_along, material.youngs_modulus_across);
 }
 
-/// Calls action(vertex of the face, its share of the area, mm²) for every vertex of a face.
+/// A box that holds a tool's surface, seen from its place: all of space but for
+/// a file's, far from which exact distances take long.
+Eigen::AlignedBox3d box_around(const cases::tools::Kind& shape) {
+  if (const auto* surface = std::get_if<cases::tools::Surface>(&shape))
+    return cases::bounding_box(surface->vertices);
+  return {Vector3d::Constant(-INFINITY), Vector3d::Constant(INFINITY)};
+}
+
+/// Calls action(vertex of the face, its share of the area, mm²) for every
+/// vertex of a face.
 /// @return the face's outer normal, of unit length
 template<class Action>
 Vector3d share_area(const cases::Mesh& mesh, const cases::FaceNodes& face, const Action& action) {
@@ -67,6 +75,7 @@ struct Contact::Touch {
 
 Contact::Contact(std::vector<ToolSide> sides) : sides_(std::move(sides)) {
   for (const ToolSide& side : sides_) {
+    distances_.push_back(distance_from(side.tool.shape));
     multipliers_.emplace_back(side.points.size(), 0.);
     grips_.emplace_back(side.tool.friction > 0 ? side.points.size() : 0);
   }
@@ -80,11 +89,14 @@ void Contact::for_each_point(const DisplacementAt& displacement, double load_fac
   for (std::size_t s = 0; s < sides_.size(); ++s) {
     const auto& [tool, points] = sides_[s];
     const Vector3d place = tool.place(load_factor);
+    const Eigen::AlignedBox3d box = box_around(tool.shape);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vector3d from_tool = points[i].rest + displacement(points[i].node) - place;
-      const SignedDistance distance = signed_distance(tool.shape, from_tool);
-      const double penalty = points[i].stiffness / points[i].area,
-                   pressure = std::max(0., multipliers_[s][i] - penalty * distance.value);
+      const double penalty = points[i].stiffness / points[i].area, reach = multipliers_[s][i] / penalty;
+      const double beyond = box.exteriorDistance(from_tool); // what is out of reach has no pressure
+      const SignedDistance distance =
+          beyond > reach ? SignedDistance{beyond, Vector3d::UnitZ()} : distances_[s](from_tool);
+      const double pressure = std::max(0., multipliers_[s][i] - penalty * distance.value);
       action(Touch{s, i, points[i], from_tool, distance, pressure});
     }
   }
@@ -95,7 +107,8 @@ Friction Contact::friction_at(const Touch& touch) const {
   return friction(grips_[touch.side][touch.index], touch.point.stiffness, touch.from_tool);
 }
 
-/// Returns what friction goes by once bound and plane are those of the pressure.
+/// Returns what friction goes by once bound and plane are those of the
+/// pressure.
 Grip Contact::renewed(const Touch& touch, Held held) const {
   Grip next = grips_[touch.side][touch.index];
   next.normal = touch.distance.normal;
@@ -131,11 +144,11 @@ double Contact::energy(const DisplacementAt& displacement, double load_factor) c
 
 Contact::Misfit Contact::misfit(const DisplacementAt& displacement, double load_factor) const {
   Misfit found;
-  double indentation = 0, way = 0; // mm: how deep the body at rest is met; how far points are pressed
+  double indentation = 0, way = 0; // mm: how deep the body at rest is met; how
+                                   // far points are pressed
   for_each_point(displacement, load_factor, [&](const Touch& touch) {
-    const cases::Tool& tool = sides_[touch.side].tool;
-    const Vector3d rest = touch.point.rest - tool.place(load_factor);
-    indentation = std::max(indentation, -signed_distance(tool.shape, rest).value);
+    const Vector3d rest = touch.point.rest - sides_[touch.side].tool.place(load_factor);
+    indentation = std::max(indentation, -distances_[touch.side](rest).value);
     if (!grips_[touch.side].empty()) {
       const Grip next = renewed(touch, Held::is_augmented);
       found.friction +=
@@ -213,14 +226,15 @@ bool Contact::has_friction() const {
 bool Contact::is_way_open(const DisplacementAt& from, double load_from, const DisplacementAt& to,
                           double load_to) const {
   constexpr int n_places = 16; // on a way
-  for (const auto& [tool, points] : sides_) {
+  for (std::size_t side = 0; side < sides_.size(); ++side) {
+    const auto& [tool, points] = sides_[side];
     const Vector3d before = tool.place(load_from), after = tool.place(load_to);
+    const Eigen::AlignedBox3d box = box_around(tool.shape);
     for (const SurfacePoint& point : points) {
       const Vector3d begin = point.rest + from(point.node) - before,
                      end = point.rest + to(point.node) - after;
-      const auto distance = [&](double part) {
-        return signed_distance(tool.shape, begin + part * (end - begin)).value;
-      };
+      if (box.exteriorDistance(begin) > (end - begin).norm()) continue; // far from a file's surface
+      const auto distance = [&](double part) { return distances_[side](begin + part * (end - begin)).value; };
       const double at_begin = distance(0), at_end = distance(1),
                    allowed = std::min({0., at_begin, at_end}) - allowed_passage * std::sqrt(point.area);
       // no place between is nearer to the tool than this
@@ -297,20 +311,23 @@ void add_work(Equilibrium& to, const Equilibrium& of) {
   cases::Solution so_far = to_solution(found);
   so_far.outcome = cases::Outcome::unknown;
   if (misfit.largest <= misfit.allowed)
-    throw cases::SolveError(
-        fmt::format("{}: the friction of the tools does not settle: after {} "
-                    "augmentations its forces still change by {:.3g} N, more than the "
-                    "{:.3g} N that are allowed; take more load steps or a smaller friction",
-                    name, n, misfit.friction, misfit.allowed_friction),
-        std::move(so_far));
-  throw cases::SolveError(
-      fmt::format("{}: the contact with the tool '{}' does not settle: after {} augmentations its surface "
-                  "and the body's differ by {:.3g} mm, more than the {:.3g} mm that are allowed",
-                  name, contact.sides()[misfit.worst].tool.name, n, misfit.largest, misfit.allowed),
-      std::move(so_far));
+    throw cases::SolveError(fmt::format("{}: the friction of the tools does not settle: after {} "
+                                        "augmentations its forces still change by {:.3g} N, more than the "
+                                        "{:.3g} N that are allowed; take more load steps or a smaller "
+                                        "friction",
+                                        name, n, misfit.friction, misfit.allowed_friction),
+                            std::move(so_far));
+  throw cases::SolveError(fmt::format("{}: the contact with the tool '{}' does not settle: after "
+                                      "{} augmentations its surface "
+                                      "and the body's differ by {:.3g} mm, more than the {:.3g} mm "
+                                      "that are allowed",
+                                      name, contact.sides()[misfit.worst].tool.name, n, misfit.largest,
+                                      misfit.allowed),
+                          std::move(so_far));
 }
 
-/// The equilibrium at the settings' last load, with multipliers that have settled there.
+/// The equilibrium at the settings' last load, with multipliers that have
+/// settled there.
 Equilibrium find_settled_equilibrium(NonlinearProblem& problem, Contact& contact,
                                      const std::function<DisplacementAt(const Vector&)>& displacement_of,
                                      const Vector& start, const std::string& name,
@@ -330,8 +347,9 @@ Equilibrium find_settled_equilibrium(NonlinearProblem& problem, Contact& contact
     try {
       next = find_equilibrium(problem, found.state, name, again);
     } catch (const cases::SolveError&) {
-      // Friction that sets in all at once is far to go. From the step's start, where its multipliers are in
-      // equilibrium, it grows with the tool's way, which can be divided.
+      // Friction that sets in all at once is far to go. From the step's start,
+      // where its multipliers are in equilibrium, it grows with the tool's way,
+      // which can be divided.
       if (!contact.has_friction()) throw;
       contact.take_pressures_of(before);
       next = find_equilibrium(problem, start, name, settings);

@@ -3,6 +3,7 @@
 #include "cases/case/solution.hpp"
 #include "cases/scene/scene.hpp"
 #include "mechanics/contact/friction.hpp"
+#include "mechanics/contact/signed_distance.hpp"
 #include "mechanics/equilibrium/find_equilibrium.hpp"
 
 #include <functional>
@@ -56,7 +57,7 @@ class Contact {
     int node;
     Eigen::Vector3d force;     ///< on the body, N, with that of friction
     Eigen::Matrix3d stiffness; ///< the penalty's and the friction's, N/mm, >= 0
-    Eigen::Matrix3d softening; ///< by the tool's curvature, N/mm, >= 0 and subtracted
+    Eigen::Matrix3d softening; ///< by the tool's curvature, N/mm, subtracted
     Eigen::Matrix3d tangent() const { return stiffness - softening; }
   };
   /// Calls action(pressed) for every point with a pressure or friction.
@@ -112,6 +113,7 @@ class Contact {
 
  private:
   std::vector<ToolSide> sides_;
+  std::vector<DistanceAt> distances_;            ///< one per tool
   std::vector<std::vector<double>> multipliers_; ///< MPa, for every tool one per point
   std::vector<std::vector<Grip>> grips_;         ///< likewise; none of a tool without friction
   int revision_ = 0;

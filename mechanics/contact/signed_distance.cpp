@@ -1,6 +1,9 @@
 #include "mechanics/contact/signed_distance.hpp"
 
+#include "mechanics/contact/surface_distance.hpp"
+
 #include <Eigen/Geometry>
+#include <memory>
 
 namespace springproof::mechanics {
 
@@ -63,8 +66,17 @@ SignedDistance distance_to(const Punch& punch, const Vector3d& point) {
 
 } // namespace
 
-SignedDistance signed_distance(const cases::tools::Kind& shape, const Vector3d& from_tool) {
-  return std::visit([&](const auto& one) { return distance_to(one, from_tool); }, shape);
+DistanceAt distance_from(const cases::tools::Kind& shape) {
+  const auto of_shape = [](const auto& one) -> DistanceAt {
+    if constexpr (std::is_same_v<std::decay_t<decltype(one)>, cases::tools::Surface>) {
+      return [surface = std::make_shared<const SurfaceDistance>(one)](const Vector3d& p) {
+        return surface->at(p);
+      };
+    } else {
+      return [one](const Vector3d& p) { return distance_to(one, p); };
+    }
+  };
+  return std::visit(of_shape, shape);
 }
 
 } // namespace springproof::mechanics

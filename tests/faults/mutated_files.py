@@ -2,7 +2,7 @@
 
 usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
 
-Kinds: case, dynamic, msh, tetrahedra, tetrahedra22, tetrahedra_vtu, tetrahedra_vtk, stl, obj, ply, skin, nifti, nifti_world, vtu, cells, vtk, vtp,
+Kinds: case, dynamic, msh, tetrahedra, tetrahedra22, tetrahedra_vtu, tetrahedra_vtk, stl, tool, obj, ply, skin, nifti, nifti_world, vtu, cells, vtk, vtp,
 displacements, motion, pvd, network, nodes, network_alone, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the program may have more, in
 the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and without a word of a sanitizer's; a damaged kept result ends in
 the numbers of an undisturbed run. What offends is left in the folder that is named. The damage is the same in every run. Only Python's
@@ -122,6 +122,16 @@ class Stl(Kind):
     def given(self, content):
         (self.folder / self.name).write_bytes(content)
         return springproof("run", "--only", "msm", self.case("[body]\n" + self.body))
+
+
+class ToolFile(Stl):
+    """A cube that presses a box from above."""
+    name = "tool.stl"
+    body = BOX + '\n[[tool]]\nname = "cube"\nshape = "surface"\nfile = "tool.stl"\ncentre = [0, 0, 2]\ndisplacement = [0, 0, -0.1]\n'
+
+    def given(self, content):
+        (self.folder / self.name).write_bytes(content)
+        return springproof("run", "--only", "msm", self.case(self.body))
 
 
 class Obj(Stl):
@@ -353,7 +363,7 @@ class Kept(Kind):
 
 
 KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "tetrahedra": Tetrahedra, "tetrahedra22": Tetrahedra22,
-         "tetrahedra_vtu": TetrahedraVtu, "tetrahedra_vtk": TetrahedraVtk, "stl": Stl, "obj": Obj, "ply": Ply, "skin": Skin, "nifti": Nifti,
+         "tetrahedra_vtu": TetrahedraVtu, "tetrahedra_vtk": TetrahedraVtk, "stl": Stl, "tool": ToolFile, "obj": Obj, "ply": Ply, "skin": Skin, "nifti": Nifti,
          "nifti_world": NiftiWorld, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
          "displacements": Displacements, "motion": Motion, "pvd": Pvd, "network": Network, "nodes": Nodes,
          "network_alone": NetworkAlone, "curve": Curve, "kept": Kept}

@@ -42,7 +42,7 @@ TEST_CASE("every enumerator has one name, and the name leads back to it") {
   check_names<Element>(10);
   check_names<Design>(16);
   check_kinds<measures::Kind>(16);
-  check_kinds<tools::Kind>(4);
+  check_kinds<tools::Kind>(5);
   check_names<Statistic>(3);
   check_names<Axis>(3);
   check_names<Frame>(2);

@@ -49,6 +49,24 @@ TEST_CASE("tools of every shape are read, and one that moves takes the place of 
   CHECK_FALSE(c.tools[0].region);
 }
 
+TEST_CASE(
+    "a tool that is a file's surface begins where its file is, or its origin at the centre or the path") {
+  const TemporaryFolder folder;
+  folder.write("probe.stl", "");
+  const std::string probe = "[[tool]]\nname = 'probe'\nshape = 'surface'\nfile = 'probe.stl'\n";
+  const auto read = [&](const std::string& text) {
+    return read_case(folder.write("case.toml", text)).tools[0];
+  };
+  const Tool there = read(pressed(probe + "displacement = [0, 0, -1]\n")),
+             moved = read(pressed(probe + "scale = 10\ncentre = [5, 5, 14]\ndisplacement = [0, 0, -1]\n")),
+             led = read(replaced(from_rest(), "[[load]]", probe + "path = [[0, 5, 5, 14]]\n[[load]]"));
+  CHECK(std::get<tools::Surface>(there.shape).file.path == (folder.path / "probe.stl").string());
+  CHECK(std::get<tools::Surface>(moved.shape).scale == 10);
+  CHECK(there.place(0) == Eigen::Vector3d::Zero());
+  CHECK(moved.place(0) == Eigen::Vector3d(5, 5, 14));
+  CHECK(led.place(0) == Eigen::Vector3d(5, 5, 14));
+}
+
 TEST_CASE("measures of a tool are read by its name") {
   const Case c = read_text(
       replaced(pressed(ball), "[[measure]]",
@@ -69,10 +87,17 @@ TEST_CASE("a mistake in a tool is refused where it stands, with what is allowed"
     return 1 + static_cast<int>(std::count(good.begin(), good.begin() + long(good.find(text)), '\n'));
   };
   refused("'sphere'", "'cube'", line_of("shape = 'sphere'"), "tool[0].shape",
-          {"\"sphere\" | \"cylinder\" | \"punch\" | \"plane\""});
+          {"\"sphere\" | \"cylinder\" | \"punch\" | \"plane\" | \"surface\""});
+  for (const char* key : {"axis = 'z'", "file = 'probe.stl'", "scale = 2"})
+    refused("radius = 4", std::string("radius = 4\n") + key, line_of("radius = 4") + 1,
+            "tool[0]." + std::string(key).substr(0, std::string(key).find(' ')),
+            {"left out: it belongs to another shape than \"sphere\""});
+  const auto of_file = [](const std::string& keys) { return "'surface'\nfile = '" + keys + "'"; };
+  refused("'sphere'", of_file("none.stl"), line_of("shape = 'sphere'") + 1, "tool[0].file",
+          {"a file that exists: there is no "});
+  refused("'sphere'", of_file("case.toml"), line_of("shape = 'sphere'") + 1, "tool[0].file",
+          {"a closed surface, .stl, .obj, .ply or .vtp"});
   refused("radius = 4", "radius = 0", line_of("radius = 4"), "tool[0].radius", {"a number above 0 (mm)"});
-  refused("radius = 4", "radius = 4\naxis = 'z'", line_of("radius = 4") + 1, "tool[0].axis",
-          {"left out: it belongs to another shape than \"sphere\""});
   for (const char* friction : {"-0.1", "5.1", "nan", "'rough'"})
     refused("radius = 4", std::string("radius = 4\nfriction = ") + friction, line_of("radius = 4") + 1,
             "tool[0].friction", {"a number from 0 to 5: Coulomb's coefficient"});

@@ -5,6 +5,7 @@
 #include "compare/gates/comparison.hpp"
 #include "tests/support/case_text.hpp"
 #include "tests/support/pictures.hpp"
+#include "tests/support/tool_surfaces.hpp"
 
 #include <Eigen/Geometry>
 
@@ -252,6 +253,24 @@ TEST_CASE("a surface of a case in the world is read in its coordinates") {
   const TriangleMesh surface = scene_of(world.whole("", "[surface]\nfile = 'skin.stl'\n"), folder).surface;
   REQUIRE(surface.vertices.size() == 3);
   CHECK((surface.vertices[1] - Vector3d(3, 1, 6)).norm() < 2e-5); // single precision
+}
+
+TEST_CASE("a tool of a case in the world is where its file has it") {
+  const TemporaryFolder folder;
+  const Text world{placement_of(in_world(folder.write("a.nii", Nifti().map(1, askew_steps, 0, offset))))};
+  const Surface on_grid = tool_surfaces::box({1, 1, 6}, {3, 2, 9});
+  Surface moved = on_grid;
+  for (auto& triangle : moved)
+    for (Vector3d& at : triangle) at = world.moved(at);
+  folder.write("tool.stl", tool_surfaces::stl(moved));
+  const Scene scene =
+      scene_of(world.whole("", "[[tool]]\nname = 'tool'\nshape = 'surface'\nfile = 'tool.stl'\n"), folder);
+  const Tool& tool = scene.definition.tools.at(0);
+  const auto& found = std::get<tools::Surface>(tool.shape).vertices;
+  const auto expected = joined(on_grid).vertices;
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t v = 0; v < found.size(); ++v)
+    CHECK((tool.at + found[v] - expected[v]).norm() < 5e-5); // single precision
 }
 
 TEST_CASE("a map to the world that is no place of a body is refused") {

@@ -120,15 +120,16 @@ TEST_CASE("all vertices of a tool's facets lie on it, and their middles near eno
     const ToolMesh mesh = mesh_of_tool(scene, it);
     INFO(tool);
     REQUIRE_FALSE(mesh.cells.empty());
+    const mechanics::DistanceAt distance = mechanics::distance_from(it.shape);
     double furthest = 0, lowest = 0;
     for (const auto& cell : mesh.cells) {
       Vector3d middle = Vector3d::Zero();
       for (std::size_t v = 0; v < 4; ++v) {
         const Vector3d from = mesh.nodes[static_cast<std::size_t>(cell[v])] - it.at;
-        furthest = larger(furthest, std::abs(mechanics::signed_distance(it.shape, from).value));
+        furthest = larger(furthest, std::abs(distance(from).value));
         middle += from / 4;
       }
-      lowest = std::min(lowest, mechanics::signed_distance(it.shape, middle).value);
+      lowest = std::min(lowest, distance(middle).value);
     }
     CHECK(furthest <= 1e-12);
     CHECK(lowest >= -1.5e-3); // a thousandth of the deepest indentation
