@@ -121,8 +121,7 @@ std::optional<mechanics::NonlinearProblem::Solved> MovingSprings::solve_at(Vecto
   if (!method_) return std::nullopt;
   work_.linear_iterations += method_(*terms_, diagonal_, pull_ ? &*pull_ : nullptr, at);
   const double left = terms_->is_substep ? 0 : size(NonlinearProblem::residual(at, load_factor), at).relative;
-  if (!std::isfinite(left) || !at.allFinite())
-    throw cases::SolveError(mechanics::no_finite_place);
+  if (!std::isfinite(left) || !at.allFinite()) throw cases::SolveError(mechanics::no_finite_place);
   return Solved{true, 0, left};
 }
 
@@ -181,7 +180,9 @@ double MovingSprings::size_of_press(const Vector& at) const {
 }
 
 std::vector<cases::ToolContact> MovingSprings::tools_at(double time, const Vector& at) const {
-  return contact_ ? contact_->found(displacements(at), time) : std::vector<cases::ToolContact>{};
+  if (!contact_) return {};
+  return contact_->found(displacements(at), time,
+                         end_ == time ? displacements(unbalanced_) : mechanics::DisplacementAt{});
 }
 
 std::vector<MovingSprings::PressedNode> MovingSprings::pressed_nodes(const Vector& at, Clamp clamp) const {

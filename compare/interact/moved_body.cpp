@@ -17,6 +17,10 @@ mechanics::IntegrationSettings steps_of(const cases::Scene& scene, const msm::Sp
     return msm::in_substeps(scene, springs, scene.definition.dynamics->step);
   mechanics::IntegrationSettings settings;
   settings.newton.tolerance = 1e-6;
+  if (!scene.definition.tools.empty()) { // forces are those that the body bears: they have three digits then
+    settings.newton.tolerance = 1e-3;
+    settings.newton.first_forcing = 0.1;
+  }
   if (const auto enough = scene.definition.msm.iterations_per_step)
     settings = mechanics::in_real_time(*enough);
   settings.max_halvings = 4;

@@ -36,16 +36,15 @@ double modulus_of(const cases::TransverselyIsotropic& material) {
   return std::max(material.youngs_modulus_along, material.youngs_modulus_across);
 }
 
-/// A box that holds a tool's surface, seen from its place: all of space but for
-/// a file's, far from which exact distances take long.
+/// A box that holds a tool's surface, seen from its place: all of space but for a file's, far from which
+/// exact distances take long.
 Eigen::AlignedBox3d box_around(const cases::tools::Kind& shape) {
   if (const auto* surface = std::get_if<cases::tools::Surface>(&shape))
     return cases::bounding_box(surface->vertices);
   return {Vector3d::Constant(-INFINITY), Vector3d::Constant(INFINITY)};
 }
 
-/// Calls action(vertex of the face, its share of the area, mm²) for every
-/// vertex of a face.
+/// Calls action(vertex of the face, its share of the area, mm²) for every vertex of a face.
 /// @return the face's outer normal, of unit length
 template<class Action>
 Vector3d share_area(const cases::Mesh& mesh, const cases::FaceNodes& face, const Action& action) {
@@ -107,8 +106,7 @@ Friction Contact::friction_at(const Touch& touch) const {
   return friction(grips_[touch.side][touch.index], touch.point.stiffness, touch.from_tool);
 }
 
-/// Returns what friction goes by once bound and plane are those of the
-/// pressure.
+/// Returns what friction goes by once bound and plane are those of the pressure.
 Grip Contact::renewed(const Touch& touch, Held held) const {
   Grip next = grips_[touch.side][touch.index];
   next.normal = touch.distance.normal;
@@ -144,8 +142,7 @@ double Contact::energy(const DisplacementAt& displacement, double load_factor) c
 
 Contact::Misfit Contact::misfit(const DisplacementAt& displacement, double load_factor) const {
   Misfit found;
-  double indentation = 0, way = 0; // mm: how deep the body at rest is met; how
-                                   // far points are pressed
+  double indentation = 0, way = 0; // mm: how deep the body at rest is met; how far points are pressed
   for_each_point(displacement, load_factor, [&](const Touch& touch) {
     const Vector3d rest = touch.point.rest - sides_[touch.side].tool.place(load_factor);
     indentation = std::max(indentation, -distances_[touch.side](rest).value);
@@ -246,19 +243,24 @@ bool Contact::is_way_open(const DisplacementAt& from, double load_from, const Di
   return true;
 }
 
-std::vector<cases::ToolContact> Contact::found(const DisplacementAt& displacement, double load_factor) const {
+std::vector<cases::ToolContact> Contact::found(const DisplacementAt& displacement, double load_factor,
+                                               const DisplacementAt& unbalanced) const {
   std::vector<cases::ToolContact> all(sides_.size());
   for_each_point(displacement, load_factor, [&](const Touch& touch) {
     cases::ToolContact& here = all[touch.side];
     here.penetration = std::max(here.penetration, -touch.distance.value);
     const Vector3d rubbed = friction_at(touch).force;
     if (!(touch.pressure > 0) && rubbed.isZero(0)) return;
-    const Vector3d force = touch.pressure * touch.point.area * touch.distance.normal + rubbed;
+    const Vector3d& normal = touch.distance.normal;
+    Vector3d force = touch.pressure * touch.point.area * normal + rubbed;
+    if (unbalanced) {
+      const Vector3d left = unbalanced(touch.point.node);
+      force -= grips_[touch.side].empty() ? Vector3d(normal.dot(left) * normal) : left;
+    }
     here.force += force;
     here.torque += touch.from_tool.cross(force);
     // the sides of an edge that the tool does not face are not pressed
-    if (touch.pressure > 0)
-      here.area += std::clamp(-touch.point.facing.dot(touch.distance.normal), 0., touch.point.area);
+    if (touch.pressure > 0) here.area += std::clamp(-touch.point.facing.dot(normal), 0., touch.point.area);
     here.nodes.push_back(touch.point.node);
     here.on_nodes.push_back(force);
   });
@@ -311,23 +313,20 @@ void add_work(Equilibrium& to, const Equilibrium& of) {
   cases::Solution so_far = to_solution(found);
   so_far.outcome = cases::Outcome::unknown;
   if (misfit.largest <= misfit.allowed)
-    throw cases::SolveError(fmt::format("{}: the friction of the tools does not settle: after {} "
-                                        "augmentations its forces still change by {:.3g} N, more than the "
-                                        "{:.3g} N that are allowed; take more load steps or a smaller "
-                                        "friction",
-                                        name, n, misfit.friction, misfit.allowed_friction),
-                            std::move(so_far));
-  throw cases::SolveError(fmt::format("{}: the contact with the tool '{}' does not settle: after "
-                                      "{} augmentations its surface "
-                                      "and the body's differ by {:.3g} mm, more than the {:.3g} mm "
-                                      "that are allowed",
-                                      name, contact.sides()[misfit.worst].tool.name, n, misfit.largest,
-                                      misfit.allowed),
-                          std::move(so_far));
+    throw cases::SolveError(
+        fmt::format("{}: the friction of the tools does not settle: after {} "
+                    "augmentations its forces still change by {:.3g} N, more than the "
+                    "{:.3g} N that are allowed; take more load steps or a smaller friction",
+                    name, n, misfit.friction, misfit.allowed_friction),
+        std::move(so_far));
+  throw cases::SolveError(
+      fmt::format("{}: the contact with the tool '{}' does not settle: after {} augmentations its surface "
+                  "and the body's differ by {:.3g} mm, more than the {:.3g} mm that are allowed",
+                  name, contact.sides()[misfit.worst].tool.name, n, misfit.largest, misfit.allowed),
+      std::move(so_far));
 }
 
-/// The equilibrium at the settings' last load, with multipliers that have
-/// settled there.
+/// The equilibrium at the settings' last load, with multipliers that have settled there.
 Equilibrium find_settled_equilibrium(NonlinearProblem& problem, Contact& contact,
                                      const std::function<DisplacementAt(const Vector&)>& displacement_of,
                                      const Vector& start, const std::string& name,
@@ -347,9 +346,8 @@ Equilibrium find_settled_equilibrium(NonlinearProblem& problem, Contact& contact
     try {
       next = find_equilibrium(problem, found.state, name, again);
     } catch (const cases::SolveError&) {
-      // Friction that sets in all at once is far to go. From the step's start,
-      // where its multipliers are in equilibrium, it grows with the tool's way,
-      // which can be divided.
+      // Friction that sets in all at once is far to go. From the step's start, where its multipliers are in
+      // equilibrium, it grows with the tool's way, which can be divided.
       if (!contact.has_friction()) throw;
       contact.take_pressures_of(before);
       next = find_equilibrium(problem, start, name, settings);

@@ -109,7 +109,12 @@ class Contact {
     sides_[tool].tool.path = std::move(path);
   }
   /// What the tools do to the body, with the forces on nodes in the numbers of the model.
-  std::vector<cases::ToolContact> found(const DisplacementAt& displacement, double load_factor) const;
+  /// @param unbalanced  of a node, N: what its forces, the tools' among them, add up to where a solution is
+  /// not exact; empty: nothing. A pressed node's force is then what the body and its inertia bear, as
+  /// reactions of supports are: a displacement's error changes this by the body's stiffness, and a pressure
+  /// by the penalty.
+  std::vector<cases::ToolContact> found(const DisplacementAt& displacement, double load_factor,
+                                        const DisplacementAt& unbalanced = {}) const;
 
  private:
   std::vector<ToolSide> sides_;
