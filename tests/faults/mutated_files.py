@@ -2,11 +2,11 @@
 
 usage: mutated_files.py SPRINGPROOF SOURCE_FOLDER [FILES_OF_EACH_KIND [KIND ...]]
 
-Kinds: case, dynamic, msh, tetrahedra, tetrahedra22, tetrahedra_vtu, tetrahedra_vtk, stl, tool, obj, ply, skin, nifti, nifti_world, vtu, cells, vtk, vtp,
-displacements, motion, pvd, network, nodes, network_alone, curve, kept. A damaged file ends in exit status 0, 1 or 2 within 5 s (a slow build of the program may have more, in
-the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and without a word of a sanitizer's; a damaged kept result ends in
-the numbers of an undisturbed run. What offends is left in the folder that is named. The damage is the same in every run. Only Python's
-standard library is used.
+Kinds: case, dynamic, msh, tetrahedra, tetrahedra22, tetrahedra_vtu, tetrahedra_vtk, stl, tool, obj, ply, skin, nifti, nifti_world, vtu,
+cells, vtk, vtp, displacements, motion, pvd, network, nodes, network_alone, curve, kept. A damaged file ends in exit status 0, 1 or 2 within
+5 s (a slow build of the program may have more, in the variable LIMIT_SECONDS), with a line on standard error unless it is 0, and without a
+word of a sanitizer's; a damaged kept result ends in the numbers of an undisturbed run. What offends is left in the folder that is named.
+The damage is the same in every run. Only Python's standard library is used.
 """
 
 import json
@@ -127,7 +127,14 @@ class Stl(Kind):
 class ToolFile(Stl):
     """A cube that presses a box from above."""
     name = "tool.stl"
-    body = BOX + '\n[[tool]]\nname = "cube"\nshape = "surface"\nfile = "tool.stl"\ncentre = [0, 0, 2]\ndisplacement = [0, 0, -0.1]\n'
+    body = BOX + """
+[[tool]]
+name = "cube"
+shape = "surface"
+file = "tool.stl"
+centre = [0, 0, 2]
+displacement = [0, 0, -0.1]
+"""
 
     def given(self, content):
         (self.folder / self.name).write_bytes(content)
@@ -363,7 +370,8 @@ class Kept(Kind):
 
 
 KINDS = {"case": CaseFile, "dynamic": DynamicCase, "msh": Msh, "tetrahedra": Tetrahedra, "tetrahedra22": Tetrahedra22,
-         "tetrahedra_vtu": TetrahedraVtu, "tetrahedra_vtk": TetrahedraVtk, "stl": Stl, "tool": ToolFile, "obj": Obj, "ply": Ply, "skin": Skin, "nifti": Nifti,
+         "tetrahedra_vtu": TetrahedraVtu, "tetrahedra_vtk": TetrahedraVtk, "stl": Stl, "tool": ToolFile,
+         "obj": Obj, "ply": Ply, "skin": Skin, "nifti": Nifti,
          "nifti_world": NiftiWorld, "vtu": Vtu, "cells": Cells, "vtk": Vtk, "vtp": Vtp,
          "displacements": Displacements, "motion": Motion, "pvd": Pvd, "network": Network, "nodes": Nodes,
          "network_alone": NetworkAlone, "curve": Curve, "kept": Kept}
