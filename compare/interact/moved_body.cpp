@@ -18,7 +18,7 @@ mechanics::IntegrationSettings steps_of(const cases::Scene& scene, const msm::Sp
   mechanics::IntegrationSettings settings;
   settings.newton.tolerance = 1e-6;
   if (!scene.definition.tools.empty()) { // forces are those that the body bears: they have three digits then
-    settings.newton.tolerance = 1e-3;
+    settings.newton.tolerance = 3e-4;
     settings.newton.first_forcing = 0.1;
   }
   if (const auto enough = scene.definition.msm.iterations_per_step)
