@@ -20,20 +20,17 @@ except ImportError:
 
 RESIDUAL = 1e-7  # of the loads, or of the reactions where only supports move: far below what meshes err by
 MOST_UNKNOWNS = 60_000  # whose tangent a direct solver factorises in some ten seconds
-MOST_ITERATIONS = 25
-SMALLEST_STEP = 1 / 64
+MOST_ITERATIONS, SMALLEST_STEP = 25, 1 / 64
 DEFORMATION = "(Id(3)+Grad_u)"
 
 
 def read_message(path):
     """Returns the header, and the arrays by name."""
     with open(path, "rb") as file:
-        header = json.loads(file.readline())
-        arrays = {}
+        header, arrays = json.loads(file.readline()), {}
         for one in header["arrays"]:
             rows, columns = one["shape"]
-            values = np.frombuffer(file.read(8 * rows * columns), "<f8")
-            arrays[one["name"]] = values.reshape(rows, columns)
+            arrays[one["name"]] = np.frombuffer(file.read(8 * rows * columns), "<f8").reshape(rows, columns)
     return header, arrays
 
 
@@ -156,8 +153,7 @@ def law(name, material, unknown):
             for mu_i, alpha in material.get("terms", ())
         )
         if "yeoh" in material:
-            c10, c20, c30 = material["yeoh"]
-            i = f"(pow({j},-2/3)*Trace({b})-3)"
+            i, (c10, c20, c30) = f"(pow({j},-2/3)*Trace({b})-3)", material["yeoh"]
             stress = f"2*({c10}+{2 * c20}*{i}+{3 * c30}*sqr({i}))*pow({j},-2/3)*Deviator({b})"
     pressure = unknown or f"({modulus})*{volume}"
     form = f"({left}({stress}+{scale}*{pressure}*Id(3)){right}):Grad_Test_u"
