@@ -43,7 +43,7 @@ struct Fit {
   std::vector<FittedMeasure> measures{}; ///< summaries of the data
   std::size_t n_data = 0;                ///< those that were fitted
   bool has_deviations = false;           ///< the data have their standard deviations
-  std::size_t n_solves = 0;              ///< of cases, or a client's answers; 0: a curve's
+  std::size_t n_solves = 0;              ///< number of cases solved, or of a client's answers; 0: a curve's
   HeldOut held_out{};
   std::vector<std::string>
       settings{}; ///< values for `--set`; empty where the fit has none, or no case takes it

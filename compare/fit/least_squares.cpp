@@ -150,8 +150,8 @@ LeastSquaresProblem::Linearised LeastSquaresProblem::linearise(const VectorXd& c
   VectorXd steps(n);
   for (Index p = 0; p < n; ++p) {
     const FreeParameter& parameter = parameters_[static_cast<std::size_t>(p)];
-    // With smooth_step errors of solves, 1e-9, and of the differences, which are of second order, are 1e-6
-    // of derivatives.
+    // With smooth_step derivatives err by 1e-6 of themselves: by the solves, 1e-9, and by the differences,
+    // which are of second order.
     steps[p] = step;
     if (parameter.lowest != 0) { // a step stays away from the ends, where a model may have a pole
       const double distance = std::min(at[p] - parameter.lowest, parameter.highest - at[p]) / size_of(p);

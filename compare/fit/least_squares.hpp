@@ -52,7 +52,7 @@ struct LeastSquares {
   std::vector<double> singular_values{};
   Eigen::VectorXd predicted;   ///< all data, those too that were left out
   double deviation_factor = 1; ///< standard deviations in units of Observations::deviations; 1 where measured
-  std::optional<double> noise{}; ///< of noisy answers, over their size
+  std::optional<double> noise{}; ///< scatter of noisy answers, over their size
   double step = 0.001;           ///< relative change of a parameter, of which derivatives are differences
   bool has_values() const { return failure.empty() && undetermined.empty(); }
 };

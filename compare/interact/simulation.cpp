@@ -72,13 +72,25 @@ struct DrawnSurface {
   std::vector<int> nodes; ///< the body's nodes that carry vertices
 };
 
-/// The surface in fewer triangles; none if it is small or cannot be had in fewer: the page draws all of it.
+/// The surface in fewer triangles, or as it is where it is small or cannot be had in fewer.
+cases::TriangleMesh few_triangles(const cases::TriangleMesh& fine) {
+  if (fine.triangles.size() <= coarse_triangles) return fine;
+  try {
+    return cases::decimated(fine, coarse_triangles);
+  } catch (const std::runtime_error&) {
+    return fine;
+  }
+}
+
+/// The surface in fewer triangles; none if there are no fewer, or a cell does not carry them: the page draws
+/// all.
 std::vector<mechanics::EmbeddedSurface> coarse_surface(const cases::TriangleMesh& fine,
                                                        const cases::Mesh& mesh) {
-  if (fine.triangles.size() <= coarse_triangles) return {};
+  const cases::TriangleMesh coarse = few_triangles(fine);
+  if (coarse.triangles.size() == fine.triangles.size()) return {};
   try {
-    return {mechanics::embed(cases::decimated(fine, coarse_triangles), mesh)};
-  } catch (const std::runtime_error&) {
+    return {mechanics::embed(coarse, mesh)};
+  } catch (const std::runtime_error&) { // a cell is degenerate there
     return {};
   }
 }
@@ -113,16 +125,6 @@ DrawnSurface drawn_surface(const mechanics::EmbeddedSurface& surface, const std:
     for (const int vertex : spheres) append<std::uint32_t>(drawn.bytes, vertex);
   }
   return drawn;
-}
-
-/// The surface in fewer triangles, or as it is where it is small or cannot be had in fewer.
-cases::TriangleMesh few_triangles(const cases::TriangleMesh& fine) {
-  if (fine.triangles.size() <= coarse_triangles) return fine;
-  try {
-    return cases::decimated(fine, coarse_triangles);
-  } catch (const std::runtime_error&) {
-    return fine;
-  }
 }
 
 /// What the page draws of a tool.

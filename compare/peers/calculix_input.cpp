@@ -164,7 +164,7 @@ void write_touched_surface(std::ostream& out, const cases::Scene& scene, const c
 /// Penalty of a contact, MPa/mm: that of a motion, which nothing corrects either.
 double contact_penalty(const cases::Scene& scene, const cases::Tool& tool) {
   constexpr double over_that_at_rest = 10;
-  double smallest = std::numeric_limits<double>::infinity(); // of a side's square
+  double smallest = std::numeric_limits<double>::infinity(); // a side's square
   for (const cases::FaceNodes& face : cases::touched_faces(scene, tool))
     for (const auto& [a, b] : cases::sides_of(face))
       smallest = std::min(

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double facet_depth = 1e-3; ///< of a facet below the surface, relative to the indentation
+constexpr double facet_depth = 1e-3; ///< how far a facet is below the surface, relative to the indentation
 constexpr int rim_segments = 32;     ///< in a quarter of a punch's rim, which they cut by 3e-4 of its radius
 
 /// Puts facets together whose vertices are at the same places.
@@ -104,7 +104,7 @@ ToolMesh facets_of(const cases::tools::Sphere& sphere, const Wanted& wanted) {
 }
 
 ToolMesh facets_of(const cases::tools::Cylinder& cylinder, const Wanted& wanted) {
-  constexpr double longest = 8; // of a facet, in its widths
+  constexpr double longest = 8; // length of a facet in its widths
   Facets facets(cylinder.radius, wanted.near);
   const Vector3d across = cylinder.axis.unitOrthogonal(), third = cylinder.axis.cross(across);
   const int n_around = std::max(8, wanted.facets_of(2 * pi * cylinder.radius, cylinder.radius));
@@ -124,7 +124,7 @@ ToolMesh facets_of(const cases::tools::Cylinder& cylinder, const Wanted& wanted)
 /// The flat end: a square, and around it four patches that reach the rim.
 ToolMesh facets_of(const cases::tools::Punch& punch, const Wanted& wanted) {
   Facets facets(punch.radius, wanted.near);
-  const double half = punch.radius / 2; // of the square's side
+  const double half = punch.radius / 2; // the square's half side
   const auto line = [](double u) { return std::tan(pi / 4 * (2 * u - 1)); };
   const Vector3d first = punch.axis.unitOrthogonal(), second = punch.axis.cross(first);
   const auto below = [&](bool is_below) -> Vector3d {
@@ -137,7 +137,7 @@ ToolMesh facets_of(const cases::tools::Punch& punch, const Wanted& wanted) {
     for (const auto& [out, along] : {std::pair(first, second), std::pair(second, first)})
       facets.add_patch(
           rim_segments, rim_segments / 4, [&, out = out, along = along](double u, double v, bool is_below) {
-            const Vector3d from = side * out + line(u) * along; // of the square of side 2
+            const Vector3d from = side * out + line(u) * along; // a point of the square of side 2
             return Vector3d(((1 - v) * half * from + v * punch.radius * from.normalized()) + below(is_below));
           });
   return std::move(facets).mesh();

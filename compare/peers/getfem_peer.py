@@ -18,7 +18,7 @@ try:
 except ImportError:
     sys.exit(3)  # which says that there is no GetFEM
 
-RESIDUAL = 1e-7  # of the loads, or of the reactions where only supports move: far below what meshes err by
+RESIDUAL = 1e-7  # relative to the loads, or to the reactions where only supports move: far below what meshes err by
 MOST_UNKNOWNS = 60_000  # whose tangent a direct solver factorises in some ten seconds
 MOST_ITERATIONS, SMALLEST_STEP = 25, 1 / 64
 DEFORMATION = "(Id(3)+Grad_u)"

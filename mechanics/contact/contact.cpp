@@ -20,7 +20,7 @@ namespace {
 constexpr int most_augmentations = 50;
 constexpr double allowed_misfit = 1e-3;   ///< relative to the indentation
 constexpr double allowed_friction = 1e-6; ///< relative to the sum of the points' bounds
-constexpr double allowed_passage = 0.05;  ///< of a point's way through a tool, relative to a face's side
+constexpr double allowed_passage = 0.05; ///< depth of a point's way through a tool, relative to a face's side
 
 double modulus_of(const cases::LinearElastic& material) {
   return material.youngs_modulus;
@@ -143,9 +143,12 @@ double Contact::energy(const DisplacementAt& displacement, double load_factor) c
 Contact::Misfit Contact::misfit(const DisplacementAt& displacement, double load_factor) const {
   Misfit found;
   double indentation = 0, way = 0; // mm: how deep the body at rest is met; how far points are pressed
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const ToolSide& side : sides_) boxes.push_back(box_around(side.tool.shape));
   for_each_point(displacement, load_factor, [&](const Touch& touch) {
     const Vector3d rest = touch.point.rest - sides_[touch.side].tool.place(load_factor);
-    indentation = std::max(indentation, -distances_[touch.side](rest).value);
+    if (boxes[touch.side].contains(rest))
+      indentation = std::max(indentation, -distances_[touch.side](rest).value);
     if (!grips_[touch.side].empty()) {
       const Grip next = renewed(touch, Held::is_augmented);
       found.friction +=

@@ -34,7 +34,7 @@ PlaceOnTriangle nearest_on(const std::array<Vector3d, 3>& corners, const Vector3
   const double of_c = a_b * b_c - b_b * a_c, of_b = c_b * a_c - a_b * c_c, of_a = b_b * c_c - c_b * b_c;
   if (of_c <= 0 && a_b >= 0 && b_b <= 0) return {Part::edge, 0, a + a_b / (a_b - b_b) * ab};
   if (of_b <= 0 && a_c >= 0 && c_c <= 0) return {Part::edge, 2, a + a_c / (a_c - c_c) * ac};
-  const double along_b = b_c - b_b, along_c = c_b - c_c; // of the way from b to c
+  const double along_b = b_c - b_b, along_c = c_b - c_c; // shares of the way from b to c
   if (of_a <= 0 && along_b >= 0 && along_c >= 0)
     return {Part::edge, 1, b + along_b / (along_b + along_c) * (c - b)};
   return {Part::face, 0, a + (of_b * ab + of_c * ac) / (of_a + of_b + of_c)};

@@ -26,11 +26,11 @@ class SurfaceDistance {
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<std::array<int, 3>> triangles_;
   std::vector<Eigen::Vector3d> face_normals_;                ///< unit length
-  std::vector<std::array<Eigen::Vector3d, 3>> edge_normals_; ///< of a triangle's edges from v to v + 1
-  std::vector<Eigen::Vector3d> vertex_normals_;              ///< of any length, as those of edges
-  std::vector<std::vector<int>> neighbours_;                 ///< of vertices, along edges
+  std::vector<std::array<Eigen::Vector3d, 3>> edge_normals_; ///< a triangle's, at its edges from v to v + 1
+  std::vector<Eigen::Vector3d> vertex_normals_;              ///< any length, as those of edges
+  std::vector<std::vector<int>> neighbours_;                 ///< a vertex's, along edges
   double size_ = 0;                                          ///< mm
-  Tree tree_;                                                ///< of triangles
+  Tree tree_;                                                ///< finds triangles by their boxes
 };
 
 } // namespace springproof::mechanics

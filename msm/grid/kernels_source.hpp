@@ -97,7 +97,7 @@ Real twice_energy_of_cells(const Springs<Real>& s, const Laws& laws, int k, cons
   P sum{};
   for (std::ptrdiff_t first = 0; first < n; first += block) {
     const std::ptrdiff_t length = first + block < n ? block : n - first;
-    Real volumes[block], squared[3][block]; // of the cells, and of their midlines
+    Real volumes[block], squared[3][block]; // what cells and their midlines have
 #pragma GCC ivdep
     for (std::ptrdiff_t i = 0; i < length; ++i) {
       Vec<Real> x[8], g[8], d[3];

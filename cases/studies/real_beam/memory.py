@@ -21,7 +21,7 @@ STEP = 0.0025  # s
 # Finite elements of the authors' modulus without a memory: frequency (Hz) and damping ratio of swings, drop at rest (mm). Those of its own
 # weight are of `springproof eigen`, without damping; those under the weights of motions with mass_damping = 4.90.
 BEAMS = {"gravity": (7.367, 0, 6.813), "gravity_and_0.510_N": (3.991, 0.0267, 17.46), "gravity_and_1.001_N": (3.075, 0.0202, 28.04)}
-SECONDS = ((1, 2), (2, 3), (3.28, 4.2801))  # of the means
+SECONDS = ((1, 2), (2, 3), (3.28, 4.2801))  # for the means
 # How well each is known: 0.2 % of the frequency, 3 % of the damping ratio, mm of what the first swings lie about and of the means.
 SIGMA = (0.002 * 7.728, 0.03 * 0.0505, 0.05, 0.02, 0.02, 0.02)
 

@@ -164,7 +164,7 @@ TEST_CASE("too few data leave nothing to hold out, and say so") {
 }
 
 TEST_CASE("noisy answers have the line's minimum, and derivatives by a step that their noise asks for") {
-  constexpr double noise = 1e-4; // of 8, their size
+  constexpr double noise = 1e-4; // their size is 8
   const Predict rough = of_each([&](const VectorXd& p) -> VectorXd {
     VectorXd values = p[0] + p[1] * places.array();
     std::mt19937 random(static_cast<unsigned>(std::hash<double>{}(p[0] + 3 * p[1])));
@@ -180,7 +180,7 @@ TEST_CASE("noisy answers have the line's minimum, and derivatives by a step that
   const LeastSquares exact =
       LeastSquaresProblem({{"a", 1}, {"b", 1}}, {measured, VectorXd::Ones(6), false}, line)
           .fit(Eigen::Vector2d(1, 1), all_of(measured));
-  CHECK(found.noise.value() == Approx(noise).epsilon(0.5)); // of 18 fourth differences
+  CHECK(found.noise.value() == Approx(noise).epsilon(0.5)); // there are 18 fourth differences
   CHECK(found.step == Approx(std::cbrt(*found.noise)));
   for (Eigen::Index p = 0; p < 2; ++p) {
     const double half = (exact.upper[p] - exact.lower[p]) / 2;

@@ -47,7 +47,7 @@ const std::string
             "displacement = [0, 0, -0.8]\n";
 
 constexpr double size = 12;    ///< mm, of the block
-constexpr double bound = 0.01; ///< of forces, and of displacements over the largest
+constexpr double bound = 0.01; ///< for forces, and for displacements over the largest
 
 /// Largest distance of two displacements of a node over the largest displacement.
 double apart(const cases::Solution& ours, const cases::Solution& theirs) {
@@ -77,7 +77,7 @@ void check_contact_agrees(const std::string& text) {
   // a sphere's is none about its middle
   CHECK((there.torque - here.torque).norm() <= bound * here.force.norm() * size);
   CHECK(apart(ours.solution, theirs) <= bound);
-  CHECK(there.area == Approx(here.area).epsilon(bound)); // of the nodes that are pressed
+  CHECK(there.area == Approx(here.area).epsilon(bound)); // the pressed nodes'
 }
 
 /// Numbers of cells and their sides under a card, up to the next one.

@@ -19,7 +19,7 @@ import time
 from pathlib import Path
 
 APART_PERCENT = 0.2  # the bound asked of a second code
-SAME_ROW = 1e-4  # of a limit: residuals of 1e-7 of the loads, in extrapolated values, on another machine
+SAME_ROW = 1e-4  # relative to a limit: residuals of 1e-7 of the loads, in extrapolated values, on another machine
 PAGE = "docs/developing/verification.md"
 HEADER = ["case", "law, nu", "cells", "load", "limit, mm", "GetFEM's limit, mm", "apart, %", "of the field, %"]
 

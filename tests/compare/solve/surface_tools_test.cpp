@@ -79,7 +79,7 @@ TEST_CASE("a ball of triangles presses as balls about and within it do, and tend
     }
   }
   for (std::size_t model = 0; model < 2; ++model)
-    CHECK(fine[model] < coarse[model] / 8); // of triangles a quarter as long; 16 by their second order
+    CHECK(fine[model] < coarse[model] / 8); // triangles are a quarter as long; 16 by their second order
 }
 
 TEST_CASE("a box's face presses, rubs and moves as the plane that it lies in", "[verification]") {

@@ -168,7 +168,7 @@ TEST_CASE("a multiplier takes the pressure's value, and a point that leaves is p
 
 TEST_CASE("a way is open outside a tool and into its surface, not through an edge or from side to side") {
   const auto is_open = [](const cases::tools::Kind& shape, const Vector3d& from, const Vector3d& to) {
-    const mechanics::SurfacePoint point{0, from, 1, 1, Vector3d::UnitZ()}; // of a face with sides of 1 mm
+    const mechanics::SurfacePoint point{0, from, 1, 1, Vector3d::UnitZ()}; // on a face with sides of 1 mm
     const Contact contact({{quarter_block::pressed_down(shape, Vector3d::Zero(), 0), {point}}});
     return contact.is_way_open([](int) { return Vector3d::Zero(); }, 0,
                                [&](int) -> Vector3d { return to - from; }, 1);

@@ -115,7 +115,7 @@ TEST_CASE("a point near the edges and corners of a hollow surface is on the side
         INFO("at " << at.transpose());
         CHECK(found == expected);
       }
-  CHECK(n_inside > 800); // of 2592
+  CHECK(n_inside > 800); // there are 2592
 }
 
 TEST_CASE("a cube bends distances by its edges and corners alone") {
