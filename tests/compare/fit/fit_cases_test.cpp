@@ -1,7 +1,6 @@
 #include "cases/case/error.hpp"
-#include "compare/error_bars/auto_fem.hpp"
-#include "compare/fit/fit.hpp"
 #include "tests/support/case_text.hpp"
+#include "tests/support/fitted_bar.hpp"
 
 #include <catch2/catch.hpp>
 #include <iomanip>
@@ -13,15 +12,7 @@ using namespace compare;
 
 namespace {
 
-/// An eighth of a bar under tension, whose strains are the same everywhere: u = (-nu x, -nu y, z) T/E.
-const std::string bar = R"(schema = 1
-name = "bar"
-body = { shape = "box", size = [10, 10, 10], cells = [2, 2, 2] }
-material = { model = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3 }
-symmetry = [{ plane = "x-" }, { plane = "y-" }, { plane = "z-" }]
-load = [{ region = "z+", kind = "traction", value = [0, 0, 0.01] }]
-fem = { formulation = "small_strain", element = "q1" }
-msm = { design = "hybrid" }
+const std::string bar = fitted_bar::text + R"(msm = { design = "hybrid" }
 measure = [{ name = "length", kind = "displacement", node = "near 0 0 10", component = "z" },
            { name = "volume", kind = "volume" },
            { name = "everywhere", kind = "displacement_field_l2" }]
@@ -38,15 +29,9 @@ msm = { design = "hybrid" }
 measure = [{ name = "drop", kind = "displacement", node = "near 0 0 12", component = "x" }]
 )";
 
-/// Solves in this process.
-std::vector<Answers> answer(const std::vector<Question>& questions) {
-  std::vector<Answers> all;
-  for (const Question& question : questions)
-    all.push_back(solve(question.scene, question.request, solve_fem));
-  return all;
-}
-
-constexpr double true_modulus = 0.62, true_ratio = 0.41;
+using fitted_bar::answer;
+using fitted_bar::true_modulus;
+using fitted_bar::true_ratio;
 
 /// Markers on three lines through the body as their displacements are, to a part of each.
 template<class Random>

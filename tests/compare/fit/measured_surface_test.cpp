@@ -1,8 +1,7 @@
 #include "cases/case/error.hpp"
 #include "cases/case/read_case.hpp"
-#include "compare/error_bars/auto_fem.hpp"
-#include "compare/fit/fit.hpp"
 #include "compare/measure/surfaces.hpp"
+#include "tests/support/fitted_bar.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,31 +13,12 @@ using namespace compare;
 
 namespace {
 
-/// An eighth of a bar under tension, whose strains are the same everywhere.
-const std::string scanned_bar = R"(schema = 1
-name = "bar"
-body = { shape = "box", size = [10, 10, 10], cells = [2, 2, 2] }
-material = { model = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3 }
-symmetry = [{ plane = "x-" }, { plane = "y-" }, { plane = "z-" }]
-load = [{ region = "z+", kind = "traction", value = [0, 0, 0.01] }]
-fem = { formulation = "small_strain", element = "q1" }
-)";
-
-constexpr double scanned_modulus = 0.62, scanned_ratio = 0.41;
-
-std::vector<Answers> solved_here(const std::vector<Question>& questions) {
-  std::vector<Answers> all;
-  for (const Question& question : questions)
-    all.push_back(solve(question.scene, question.request, solve_fem));
-  return all;
-}
-
 /// The deformed surface of finer elements with the true moduli, as a file .obj.
 /// @param deviation  of every vertex and component, mm
 std::string scan(const std::string& file, double deviation) {
   const cases::Scene scene = cases::make_scene(cases::read_case(
-      file, {"body.cells=[6,6,6]", fmt::format("material.youngs_modulus={}", scanned_modulus),
-             fmt::format("material.poissons_ratio={}", scanned_ratio)}));
+      file, {"body.cells=[6,6,6]", fmt::format("material.youngs_modulus={}", fitted_bar::true_modulus),
+             fmt::format("material.poissons_ratio={}", fitted_bar::true_ratio)}));
   const mechanics::EmbeddedSurface surface = embedded_surface(scene);
   std::vector<Eigen::Vector3d> deformed;
   mechanics::move(surface, solve_fem(scene, 0).fem.solution.displacement, deformed);
@@ -56,7 +36,7 @@ std::string scan(const std::string& file, double deviation) {
 
 TEST_CASE("the surface of a finer body tells the moduli, to the noise of its points", "[verification]") {
   const TemporaryFolder folder;
-  const FitCases cases{{folder.write("bar.toml", scanned_bar)}, {}, {}};
+  const FitCases cases{{folder.write("bar.toml", fitted_bar::text)}, {}, {}};
   constexpr double deviation = 0.002; // mm; the ends move by 0.16, the sides by 0.07
   folder.write("scan.obj", scan(cases.files[0], deviation));
   const std::string data = folder.write("data.csv", fmt::format("surface,sigma\nscan.obj,{}\n", deviation));
@@ -65,11 +45,11 @@ TEST_CASE("the surface of a finer body tells the moduli, to the noise of its poi
   const MeasuredSurface& surface = read.states[0].surface.value();
   CHECK(surface.moved.maxCoeff() == Approx(0.161).margin(5 * deviation));  // out along z: T/E times 10 mm
   CHECK(surface.moved.minCoeff() == Approx(-0.066).margin(5 * deviation)); // in along x and y
-  const Fit fit = fit_cases(cases, read, "data.csv", {}, cases::Side::fem, solved_here);
+  const Fit fit = fit_cases(cases, read, "data.csv", {}, cases::Side::fem, fitted_bar::answer);
   INFO(fit.found.failure);
   REQUIRE(fit.found.has_values());
   CHECK(fit.n_data == surface.points.size());
-  const double truth[] = {scanned_modulus, scanned_ratio};
+  const double truth[] = {fitted_bar::true_modulus, fitted_bar::true_ratio};
   for (Eigen::Index p = 0; p < 2; ++p) {
     CHECK(fit.found.lower[p] < truth[p]);
     CHECK(fit.found.upper[p] > truth[p]);
@@ -84,7 +64,7 @@ TEST_CASE("the surface of a finer body tells the moduli, to the noise of its poi
 TEST_CASE(
     "a file of data without a readable surface, or with two of one state, is refused where it says so") {
   const TemporaryFolder folder;
-  const FitCases cases{{folder.write("bar.toml", scanned_bar)}, {}, {}};
+  const FitCases cases{{folder.write("bar.toml", fitted_bar::text)}, {}, {}};
   const auto read = [&](const std::string& text) {
     return read_fit_data(text, (folder.path / "data.csv").string(), cases);
   };
