@@ -40,6 +40,7 @@ struct StepTerms {
   double scale = 0;       ///< N: forces of the motion, which residuals are relative to
   /// Limit on the linear solver's iterations, over the whole step; none: as many as it takes.
   std::optional<int> enough_linear_iterations = {};
+  bool in_single_precision = false; ///< directions may be found so
   /// One of several to the time asked for, and not the last: nobody asks what it leaves of its equation.
   bool is_substep = false;
   /// s from the step's beginning to its equation: what a material's memory fades in. Infinite: all has faded.

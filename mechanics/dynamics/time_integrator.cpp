@@ -18,7 +18,17 @@ IntegrationSettings in_real_time(int linear_iterations) {
   IntegrationSettings settings;
   settings.newton.tolerance = 1e-2;
   settings.newton.enough_newton_per_step = 2;
+  settings.newton.takes_full_steps = true;
   settings.enough_linear_iterations = linear_iterations;
+  return settings;
+}
+
+IntegrationSettings to_few_digits(double tolerance) {
+  IntegrationSettings settings;
+  settings.newton.tolerance = tolerance;
+  settings.newton.first_forcing = 0.1;
+  settings.newton.takes_full_steps = true;
+  settings.in_single_precision = true;
   return settings;
 }
 
@@ -99,6 +109,7 @@ bool TimeIntegrator::try_step(double to, double target) {
     scale_ = terms.scale = std::max(scale_, norm(residual_));
   }
   terms.enough_linear_iterations = settings_.enough_linear_iterations;
+  terms.in_single_precision = settings_.in_single_precision;
   terms.is_substep = to < target;
   if (!solve(terms, c, to)) return false;
   if (settings_.enough_linear_iterations &&

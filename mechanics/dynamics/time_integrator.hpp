@@ -19,6 +19,8 @@ struct IntegrationSettings {
   int substeps = 1;      ///< that advance() makes of a step
   /// Limit on a step's linear iterations, in all; see in_real_time().
   std::optional<int> enough_linear_iterations = {};
+  /// Directions may be found in single precision.
+  bool in_single_precision = false;
 
   /// Settings for a step that changes little: its first direction leads all the way.
   static EquilibriumSettings nearly_linear() {
@@ -32,6 +34,9 @@ struct IntegrationSettings {
 /// after two iterations of Newton's method and the given number of the linear solver. A step left with more
 /// than the loads is halved. Simulators take one linear solution a step (Baraff and Witkin 1998).
 IntegrationSettings in_real_time(int linear_iterations);
+
+/// Settings for steps that are solved to a few digits, 1e-4 of the loads or more.
+IntegrationSettings to_few_digits(double tolerance);
 
 /// A body in motion, from step to step. After its first step it allocates nothing; a problem may.
 class TimeIntegrator {

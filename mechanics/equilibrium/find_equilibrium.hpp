@@ -28,6 +28,8 @@ struct EquilibriumSettings {
   int max_convexified_per_step = 12; ///< limit; what has not converged by then will not
   /// Iterations after which a state is taken as it is; none: only where the tolerance is met.
   std::optional<int> enough_newton_per_step = {};
+  /// Where time is short, a full step that halves the residual at least needs no energies to be seen as a gain.
+  bool takes_full_steps = false;
   int max_load_steps = 400;
   int max_newton_iterations = 4000;         ///< limit over the whole path
   long max_relaxation_iterations = 1000000; ///< limit for an explicit relaxation

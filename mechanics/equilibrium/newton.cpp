@@ -143,9 +143,8 @@ bool Newton::take_step(Vector& at, double forcing, double load_factor, Convexity
   return take(fallback);
 }
 
-/// Where time is short, a full step that halves the residual at least needs no energies to be seen as a gain.
 bool Newton::take_full_step(Vector& at, double load_factor, Expect expect) {
-  if (!settings_.enough_newton_per_step) return false;
+  if (!settings_.takes_full_steps) return false;
   trial_.at = at + step_;
   problem_.residual(trial_.at, load_factor, expect, trial_.residual);
   if (!(4 * problem_.dot(trial_.residual, trial_.residual) <= problem_.dot(residual_, residual_)))

@@ -350,7 +350,10 @@ class MovingGrid : public MovingSprings {
     for (int attempt = speed_.is_slow() ? 1 : 0; attempt < 3; ++attempt) {
       if (attempt == 2) make_multigrid(); // after points that coincide or fly off it may have learnt nonsense
       if (attempt > 0) linearise(at);
-      solve_by_cycles(at, residual, forcing, clamp);
+      if (terms().in_single_precision)
+        solve_in_real_time(at, residual, forcing, clamp);
+      else
+        solve_by_cycles(at, residual, forcing, clamp);
       speed_.measure(found_.iterations, forcing, attempt > 0);
       if (found_.converged || found_.met_negative_curvature) break;
     }
