@@ -101,6 +101,10 @@ void Cycle::linearise() {
   }
 }
 
+void Cycle::factorise_again() {
+  if (ends_exactly_) levels[last_]->factorise();
+}
+
 void Level::forget() {
   largest_eigenvalue_ = 0;
   for (Field<float>* field : {&solution_, &residual_, &correction_, &product_})

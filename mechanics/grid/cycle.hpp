@@ -140,6 +140,8 @@ class Cycle {
   std::vector<std::unique_ptr<Level>> levels;
 
   void linearise();
+  /// Prepares what is solved exactly, after a change of its operator.
+  void factorise_again();
   /// Drops what a state far off may have left: misleading largest eigenvalues, and NaN.
   void forget();
   /// solution = cycle(right_side), on the finest level.

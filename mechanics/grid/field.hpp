@@ -70,15 +70,19 @@ void for_each_piece(std::ptrdiff_t n, int n_threads, const Action& action) {
              [&](std::ptrdiff_t p) { action(p * piece, std::min(piece, n - p * piece)); });
 }
 
+/// Entries of an array of nodes from which on sweeps of a grid, some hundred operations a node, are worth
+/// several threads.
+constexpr std::ptrdiff_t worth_threads = 1 << 12;
+
 /// Calls action(k) for planes, or layers, from begin to end - 1 on n_threads threads.
 template<class Action>
 void for_each_plane(int begin, int end, int n_threads, const Action& action) {
   on_threads(end - begin, n_threads, [&](std::ptrdiff_t k) { action(begin + static_cast<int>(k)); });
 }
-/// The same for all planes of nodes; small grids are not worth several threads.
+/// The same for all planes of nodes.
 template<class Action>
 void for_each_plane(const Layout& layout, int n_threads, const Action& action) {
-  for_each_plane(0, layout.nodes[2], layout.size <= piece ? 1 : n_threads, action);
+  for_each_plane(0, layout.nodes[2], layout.size <= worth_threads ? 1 : n_threads, action);
 }
 
 /// Calls action(layer) for n layers of cells, first the even ones of the grid and then the odd ones: those

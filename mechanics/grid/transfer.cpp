@@ -57,7 +57,7 @@ template<class Stencil, class AlongX>
 void Interpolation<Real>::transfer(const Layout& from, const Field<Real>& source, const Layout& to,
                                    Field<Real>& result, int begin, int end, const Stencil& stencil,
                                    const AlongX& along_x) const {
-  for_each_plane(begin, end, to.size <= piece ? 1 : n_threads_, [&](int k) {
+  for_each_plane(begin, end, to.size <= worth_threads ? 1 : n_threads_, [&](int k) {
     const Rows z = stencil(k, factor_[2], shift_[2]);
     auto sum = rows_.col(k);
     for (int component = 0; component < 3; ++component)

@@ -100,6 +100,21 @@ constexpr std::ptrdiff_t packed_size(const Layout& layout) {
   return std::ptrdiff_t{layout.nodes[2]} * layout.nodes[1] * ((layout.nodes[0] + 15) / 16 * 16) * n_springs;
 }
 
+/// Numbers that a clamped tangent is kept in, so that its products need no law: for every pack of a row's
+/// nodes each spring's transverse and along (SpringTangent), a pack of each, row by row; and from kept_cells()
+/// on, for every plane, arrays of its cells: the volume term's slope, and both numbers of the midlines.
+constexpr std::ptrdiff_t kept_cells(const Layout& layout) {
+  return 2 * packed_size(layout);
+}
+constexpr int kept_per_cell = 7;
+/// Entries of a plane's arrays of cells: the rows that have cells above them, in whole packs.
+constexpr std::ptrdiff_t cells_of_plane(const Layout& layout) {
+  return (layout.row * (layout.nodes[1] - 1) + 15) / 16 * 16;
+}
+constexpr std::ptrdiff_t kept_size(const Layout& layout, bool has_cells) {
+  return kept_cells(layout) + (has_cells ? kept_per_cell * layout.nodes[2] * cells_of_plane(layout) : 0);
+}
+
 template<class Real>
 struct Kernels {
   /// force = minus the gradient of the energy.
@@ -107,8 +122,13 @@ struct Kernels {
   /// product = tangent at displacement times direction.
   void (*product)(const Springs<Real>&, const Slab<Real>&, Clamp, const Real* displacement,
                   const Real* direction, Real* product);
+  /// product = a kept tangent times direction; it was kept at the displacement.
+  void (*kept_product)(const Springs<Real>&, const Slab<Real>&, const Real* kept, const Real* displacement,
+                       const Real* direction, Real* product);
   /// Diagonal 3x3 blocks of the tangent as six arrays: xx, yy, zz, yz, xz, xy. spill has six planes.
-  void (*diagonal)(const Springs<Real>&, const Slab<Real>&, Clamp, const Real* displacement, Real* diagonal);
+  /// @param kept  kept_size() entries, which get the tangent; null: it is not kept
+  void (*diagonal)(const Springs<Real>&, const Slab<Real>&, Clamp, const Real* displacement, Real* diagonal,
+                   Real* kept);
   double (*energy)(const Springs<Real>&, int first, int last, const Real* displacement);
   /// Orders the stiffnesses by_node as springs are swept: a block of 13 for every pack, row by row.
   void (*pack_stiffness)(const Springs<Real>&, Real* to, unsigned char* use);

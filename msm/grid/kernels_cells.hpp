@@ -116,11 +116,6 @@ SPRINGPROOF_INLINE void add_from_midlines(const Vec<Real> (&quarters)[3], Vec<Re
   for (int v = 0; v < 8; ++v) f[v] = f[v] + of_vertices[v];
 }
 
-/// Nodes of the plane's rows that have cells above them, in whole packs: the last row has none.
-SPRINGPROOF_INLINE std::ptrdiff_t cells_of_plane(const Layout& layout) {
-  return (layout.row * (layout.nodes[1] - 1) + 15) / 16 * 16;
-}
-
 /// result -= what action gives for the eight vertices of every cell with a volume term.
 template<class Real, class Action>
 SPRINGPROOF_INLINE void sweep_cells(const Springs<Real>& s, const Slab<Real>& slab, const Action& action,
@@ -184,30 +179,72 @@ __attribute__((noinline)) void cell_force(const Springs<Real>& s, const Slab<Rea
   sweep_cells(s, slab, action, force);
 }
 
+// What a product needs of cells' tangents, from `first` in plane k on: as their laws give it, or as it is kept.
+template<Clamp how, class Real, class Laws>
+struct TangentByLaw {
+  static constexpr Clamp clamp = how;
+  const Laws& laws;
+  struct OfPlane {
+    const Laws& laws;
+    const Cells<Real>& cells;
+    SPRINGPROOF_INLINE Real slope(Real volume, std::ptrdiff_t i) const {
+      return laws.volume.template slope<clamp>(volume, cells.stiffness[i]);
+    }
+    SPRINGPROOF_INLINE Real pressure(Real volume, std::ptrdiff_t i) const {
+      return laws.volume.pressure(volume, cells.stiffness[i]);
+    }
+    SPRINGPROOF_INLINE SpringTangent<Real> midline(int a, Real squared, std::ptrdiff_t i) const {
+      return laws.spring[edge_along[a]].template tangent<clamp>(squared, cells.midline[a][i]);
+    }
+  };
+  SPRINGPROOF_INLINE OfPlane of_plane(const Cells<Real>& cells, const Layout&, std::ptrdiff_t, int) const {
+    return {laws, cells};
+  }
+};
+template<class Real>
+struct KeptTangent {
+  static constexpr Clamp clamp = Clamp::yes;
+  const Real* kept;
+  struct OfPlane {
+    const Real* slopes;
+    std::ptrdiff_t n;
+    SPRINGPROOF_INLINE Real slope(Real, std::ptrdiff_t i) const { return slopes[i]; }
+    SPRINGPROOF_INLINE SpringTangent<Real> midline(int a, Real, std::ptrdiff_t i) const {
+      return {slopes[(2 * a + 1) * n + i], slopes[(2 * a + 2) * n + i]};
+    }
+  };
+  SPRINGPROOF_INLINE OfPlane of_plane(const Cells<Real>&, const Layout& layout, std::ptrdiff_t first,
+                                      int k) const {
+    const std::ptrdiff_t n = cells_of_plane(layout);
+    return {kept + kept_cells(layout) + kept_per_cell * n * k + first, n};
+  }
+};
+
 /// Quarters of the forces of midlines along a motion: their tangents' products with it, negative.
 /// @param x, y  the cell's positions and the motion of its vertices
-template<Clamp clamp, class Real, class Laws>
-SPRINGPROOF_INLINE void midline_products(const Cells<Real>& cells, const Laws& laws, std::ptrdiff_t i,
-                                         const Vec<Real> (&x)[8], const Vec<Real> (&y)[8],
-                                         Vec<Real> (&c)[3]) {
+template<class Real, class OfPlane>
+SPRINGPROOF_INLINE void midline_products(const OfPlane& tangents, std::ptrdiff_t i, const Vec<Real> (&x)[8],
+                                         const Vec<Real> (&y)[8], Vec<Real> (&c)[3]) {
   Vec<Real> d[3];
   fourfold_midlines(x, d);
   fourfold_midlines(y, c);
 #pragma GCC unroll 3
   for (int a = 0; a < 3; ++a) {
-    const auto [transverse, along] =
-        laws.spring[edge_along[a]].template tangent<clamp>(squared_midline(d[a]), cells.midline[a][i]);
+    const auto [transverse, along] = tangents.midline(a, squared_midline(d[a]), i);
     c[a] = (Real(-1. / 256) * along * dot(d[a], c[a])) * d[a] - (Real(1. / 16) * transverse) * c[a];
   }
 }
 
 /// dp/dV g (g . v) + p (change of g along v), the second part only where the tangent is not clamped, and the
 /// tangents of midlines.
-template<Clamp clamp, bool has_midlines, class Real, class Laws>
-__attribute__((noinline)) void cell_product(const Springs<Real>& s, const Slab<Real>& slab, const Laws& laws,
-                                            const Real* displacement, const Real* direction, Real* product) {
+template<bool has_midlines, class Real, class Tangent>
+__attribute__((noinline)) void cell_product(const Springs<Real>& s, const Slab<Real>& slab,
+                                            const Tangent& tangent, const Real* displacement,
+                                            const Real* direction, Real* product) {
+  constexpr Clamp clamp = Tangent::clamp;
   const auto action = [&](std::ptrdiff_t first, std::ptrdiff_t length, int k, Real* b) {
     const Cells<Real> cells = cells_from(s, displacement, first, k), w = cells_from(s, direction, first, k);
+    const auto tangents = tangent.of_plane(cells, s.layout, first, k);
     // Midlines beside the volume take more registers than there are: in double precision they come first.
     constexpr bool come_first = has_midlines && sizeof(Real) == 8;
     alignas(64) Real pulls[come_first ? 9 * block : 1];
@@ -217,7 +254,7 @@ __attribute__((noinline)) void cell_product(const Springs<Real>& s, const Slab<R
         Vec<Real> x[8], y[8], c[3];
         cells.positions(i, x);
         w.read(i, y);
-        midline_products<clamp>(cells, laws, i, x, y, c);
+        midline_products(tangents, i, x, y, c);
 #pragma GCC unroll 3
         for (int a = 0; a < 3; ++a) {
           pulls[3 * a * block + i] = c[a].x;
@@ -234,9 +271,10 @@ __attribute__((noinline)) void cell_product(const Springs<Real>& s, const Slab<R
       Real change = 0; // the gradients of a cell sum to 0: y may be taken from the first vertex
 #pragma GCC unroll 8
       for (int v = 1; v < 8; ++v) change += dot(g[v], y[v]);
-      const Real size = volume(x, g), stiffness = cells.stiffness[i];
-      change *= -laws.volume.template slope<clamp>(size, stiffness); // sweep_cells subtracts
-      const Real pressure = clamp == Clamp::no ? -laws.volume.pressure(size, stiffness) : Real(0);
+      const Real size = volume(x, g);
+      change *= -tangents.slope(size, i); // sweep_cells subtracts
+      Real pressure = 0;
+      if constexpr (clamp == Clamp::no) pressure = -tangents.pressure(size, i);
 #pragma GCC unroll 8
       for (int a = 0; a < 8; ++a) {
         if constexpr (clamp == Clamp::no)
@@ -246,7 +284,7 @@ __attribute__((noinline)) void cell_product(const Springs<Real>& s, const Slab<R
       }
       if constexpr (has_midlines) {
         Vec<Real> c[3];
-        if constexpr (!come_first) midline_products<clamp>(cells, laws, i, x, y, c);
+        if constexpr (!come_first) midline_products(tangents, i, x, y, c);
 #pragma GCC unroll 3
         for (int a = 0; a < 3 && come_first; ++a)
           c[a] = {pulls[3 * a * block + i], pulls[(3 * a + 1) * block + i], pulls[(3 * a + 2) * block + i]};

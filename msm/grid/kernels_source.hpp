@@ -36,16 +36,23 @@ void force(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacem
   });
 }
 
+template<class Real, class Tangent>
+SPRINGPROOF_INLINE void cell_products(const Springs<Real>& s, const Slab<Real>& slab, const Tangent& tangent,
+                                      const Real* displacement, const Real* direction, Real* result) {
+  if (s.midline[0])
+    cell_product<true>(s, slab, tangent, displacement, direction, result);
+  else if (s.volume_stiffness)
+    cell_product<false>(s, slab, tangent, displacement, direction, result);
+}
+
 template<class Real, Clamp clamp>
 void product_with(const Springs<Real>& s, const Slab<Real>& slab, const Real* displacement,
                   const Real* direction, Real* result) {
   with_laws(s, [&](const auto& laws) {
     sweep_springs(s, slab, Product<std::decay_t<decltype(laws)>, Real, clamp>{laws}, displacement, direction,
                   result);
-    if (s.midline[0])
-      cell_product<clamp, true>(s, slab, laws, displacement, direction, result);
-    else if (s.volume_stiffness)
-      cell_product<clamp, false>(s, slab, laws, displacement, direction, result);
+    cell_products(s, slab, TangentByLaw<clamp, Real, std::decay_t<decltype(laws)>>{laws}, displacement,
+                  direction, result);
   });
 }
 template<class Real>
@@ -53,6 +60,13 @@ void product(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const 
              const Real* direction, Real* result) {
   const auto& run = clamp == Clamp::yes ? product_with<Real, Clamp::yes> : product_with<Real, Clamp::no>;
   run(s, slab, displacement, direction, result);
+}
+
+template<class Real>
+void kept_product(const Springs<Real>& s, const Slab<Real>& slab, const Real* kept, const Real* displacement,
+                  const Real* direction, Real* result) {
+  sweep_springs(s, slab, KeptProduct<Real>{kept}, displacement, direction, result);
+  cell_products(s, slab, KeptTangent<Real>{kept}, displacement, direction, result);
 }
 
 /// One spring of every node of plane k.
@@ -157,11 +171,97 @@ SPRINGPROOF_INLINE void add_block(Real transverse, Real along, const Vec<Real>& 
   sum[5] += along * d.x * d.y;
 }
 
-/// Blocks of the springs to both ends. Not the time-critical one: the ends get theirs one spring at a time.
+/// Sets the blocks of the springs of plane k, a spring at a time, which both its ends get.
+template<Clamp clamp, class Real, class Laws>
+void spring_diagonals(const Springs<Real>& s, const Slab<Real>& slab, const Laws& laws, int k,
+                      const Real* displacement, Real* result, Real* kept) {
+  using P = Pack<Real>;
+  constexpr std::ptrdiff_t lanes = pack_size<Real>;
+  const Layout& layout = s.layout;
+  const std::ptrdiff_t n = layout.nodes[0];
+  for (int spring = 0; spring < n_springs; ++spring) {
+    const int dy = spring_steps[spring][1], dz = spring_steps[spring][2];
+    if (k + dz == layout.nodes[2]) continue;
+    const PlaneOfSprings<Real> springs = plane_of_springs(s, spring, k, displacement);
+    Real *own[6], *far[6];
+    for (int c = 0; c < 6; ++c) {
+      own[c] = result_plane(layout, slab, result, k, c);
+      far[c] = result_plane(layout, slab, result, k + dz, c) + springs.in_plane;
+    }
+    for (int j = dy < 0 ? 1 : 0; j + dy < layout.nodes[1] && j < layout.nodes[1]; ++j) {
+      Real* const of_row = kept ? kept + 2 * (packed_row<Real>(layout, k, j) + spring * lanes) : nullptr;
+      for (std::ptrdiff_t first = 0; first < n; first += lanes) {
+        const std::ptrdiff_t at = j * layout.row + first;
+        const Vec<P> d = springs.at(at);
+        P stiffness = springs.share.scale * load(springs.share.share + at);
+        if (n - first < lanes) stiffness = first_of(n - first, stiffness, P{});
+        const SpringTangent<P> tangent =
+            laws.spring[spring].template tangent<clamp>(squared_length(d), stiffness);
+        if (kept) {
+          store(of_row + 2 * first * stiffness_packs, tangent.transverse);
+          store(of_row + 2 * first * stiffness_packs + lanes, tangent.along);
+        }
+        P blocks[6] = {};
+        add_block(tangent.transverse, tangent.along, d, blocks);
+        for (int c = 0; c < 6; ++c) { // 0 is added beyond the row's end
+          add(own[c] + at, blocks[c]);
+          add(far[c] + at, blocks[c]);
+        }
+      }
+    }
+  }
+}
+
+/// Adds the blocks of the volume terms and midlines of plane k.
+template<Clamp clamp, class Real, class Laws>
+void cell_diagonals(const Springs<Real>& s, const Slab<Real>& slab, const Laws& laws, int k,
+                    const Real* displacement, Real* result, Real* kept) {
+  const Layout& layout = s.layout;
+  const std::ptrdiff_t n = cells_of_plane(layout);
+  for (std::ptrdiff_t first = 0; first < n; first += block) {
+    const std::ptrdiff_t length = first + block < n ? block : n - first;
+    const Cells<Real> cells = cells_from(s, displacement, first, k);
+    alignas(64) Real blocks[48][block], numbers[kept_per_cell][block];
+#pragma GCC ivdep
+    for (std::ptrdiff_t i = 0; i < length; ++i) {
+      Vec<Real> x[8], g[8], d[3];
+      cells.positions(i, x);
+      volume_gradients(x, g);
+      const Real slope = laws.volume.template slope<clamp>(volume(x, g), cells.stiffness[i]);
+      numbers[0][i] = slope;
+      Real of_midlines[6] = {};
+      fourfold_midlines(x, d);
+      for (int a = 0; a < 3 && s.midline[0]; ++a) {
+        const auto [transverse, along] =
+            laws.spring[edge_along[a]].template tangent<clamp>(squared_midline(d[a]), cells.midline[a][i]);
+        numbers[2 * a + 1][i] = transverse;
+        numbers[2 * a + 2][i] = along;
+        add_block(transverse / 16, along / 256, d[a], of_midlines);
+      }
+#pragma GCC unroll 8
+      for (int v = 0; v < 8; ++v) {
+        Real sum[6];
+        for (int c = 0; c < 6; ++c) sum[c] = of_midlines[c];
+        add_block(Real(0), slope, g[v], sum);
+        for (int c = 0; c < 6; ++c) blocks[6 * v + c][i] = sum[c];
+      }
+    }
+    for (int v = 0; v < 8; ++v)
+      for (int c = 0; c < 6; ++c) {
+        Real* __restrict to = result_plane(layout, slab, result, k + (v >> 2), c) + first + (v & 1) +
+                              ((v >> 1) & 1) * layout.row;
+        for (std::ptrdiff_t i = 0; i < length; ++i) to[i] += blocks[6 * v + c][i];
+      }
+    for (int number = 0; kept && number < (s.midline[0] ? kept_per_cell : 1); ++number) {
+      Real* const to = kept + kept_cells(layout) + (kept_per_cell * k + number) * n + first;
+      for (std::ptrdiff_t i = 0; i < length; ++i) to[i] = numbers[number][i];
+    }
+  }
+}
+
 template<Clamp clamp, class Real, class Laws>
 void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Laws& laws, const Real* displacement,
-                   Real* result) {
-  using P = Pack<Real>;
+                   Real* result, Real* kept) {
   const Layout& layout = s.layout;
   const auto clear = [](Real* begin, std::ptrdiff_t n) {
     for (std::ptrdiff_t i = 0; i < n; ++i) begin[i] = 0;
@@ -171,74 +271,27 @@ void diagonal_with(const Springs<Real>& s, const Slab<Real>& slab, const Laws& l
           layout.plane * (slab.last - slab.first));
     clear(slab.spill + c * layout.plane, layout.plane);
   }
-  const std::ptrdiff_t n = (layout.row * layout.nodes[1] + 15) / 16 * 16;
-  Real* const b = slab.scratch;
   for (int k = slab.first; k < slab.last; ++k) {
-    for (int spring = 0; spring < n_springs; ++spring) {
-      const int dz = spring_steps[spring][2];
-      if (k + dz == layout.nodes[2]) continue;
-      const PlaneOfSprings<Real> springs = plane_of_springs(s, spring, k, displacement);
-      for (std::ptrdiff_t first = 0; first < n; first += block) {
-        const std::ptrdiff_t length = first + block < n ? block : n - first;
-        for (std::ptrdiff_t i = 0; i < length; i += pack_size<Real>) {
-          const Vec<P> d = springs.at(first + i);
-          const P stiffness = springs.share.scale * load(springs.share.share + first + i);
-          const SpringTangent<P> tangent =
-              laws.spring[spring].template tangent<clamp>(squared_length(d), stiffness);
-          P blocks[6] = {};
-          add_block(tangent.transverse, tangent.along, d, blocks);
-          for (int c = 0; c < 6; ++c) store(b + i + c * block, blocks[c]);
-        }
-        for (int c = 0; c < 6; ++c) {
-          Real *own = result_plane(layout, slab, result, k, c) + first,
-               *far = result_plane(layout, slab, result, k + dz, c) + first + springs.in_plane;
-          const Real* __restrict part = b + c * block;
-          for (std::ptrdiff_t i = 0; i < length; ++i) own[i] += part[i];
-          for (std::ptrdiff_t i = 0; i < length; ++i) far[i] += part[i];
-        }
-      }
-    }
-    if (!s.volume_stiffness || k + 1 == layout.nodes[2]) continue;
-    const Cells<Real> cells = cells_from(s, displacement, 0, k);
-    for (std::ptrdiff_t i = 0; i < layout.row * (layout.nodes[1] - 1); ++i) {
-      Vec<Real> x[8], g[8];
-      cells.positions(i, x);
-      volume_gradients(x, g);
-      const Real slope = laws.volume.template slope<clamp>(volume(x, g), cells.stiffness[i]);
-      Real of_midlines[6] = {};
-      Vec<Real> d[3];
-      fourfold_midlines(x, d);
-      for (int a = 0; a < 3 && s.midline[0]; ++a) {
-        const auto [t, along] = laws.spring[edge_along[a]].template tangent<clamp>(squared_midline(d[a]),
-                                                                                   cells.midline[a][i] / 16);
-        add_block(t, along / 16, d[a], of_midlines);
-      }
-      for (int v = 0; v < 8; ++v) {
-        Real sum[6];
-        for (int c = 0; c < 6; ++c) sum[c] = of_midlines[c];
-        add_block(Real(0), slope, g[v], sum);
-        for (int c = 0; c < 6; ++c)
-          result_plane(layout, slab, result, k + (v >> 2), c)[i + (v & 1) + ((v >> 1) & 1) * layout.row] +=
-              sum[c];
-      }
-    }
+    spring_diagonals<clamp>(s, slab, laws, k, displacement, result, kept);
+    if (s.volume_stiffness && k + 1 < layout.nodes[2])
+      cell_diagonals<clamp>(s, slab, laws, k, displacement, result, kept);
   }
 }
 
 template<class Real>
 void diagonal(const Springs<Real>& s, const Slab<Real>& slab, Clamp clamp, const Real* displacement,
-              Real* result) {
+              Real* result, Real* kept) {
   with_laws(s, [&](const auto& laws) {
     if (clamp == Clamp::yes)
-      diagonal_with<Clamp::yes>(s, slab, laws, displacement, result);
+      diagonal_with<Clamp::yes>(s, slab, laws, displacement, result, kept);
     else
-      diagonal_with<Clamp::no>(s, slab, laws, displacement, result);
+      diagonal_with<Clamp::no>(s, slab, laws, displacement, result, kept);
   });
 }
 
 template<class Real>
-constexpr Kernels<Real> all{force<Real>,          product<Real>,    diagonal<Real>, energy<Real>,
-                            pack_stiffness<Real>, mass_layer<Real>, pack_size<Real>};
+constexpr Kernels<Real> all{force<Real>,  product<Real>,        kept_product<Real>, diagonal<Real>,
+                            energy<Real>, pack_stiffness<Real>, mass_layer<Real>,   pack_size<Real>};
 
 } // namespace
 

@@ -8,17 +8,18 @@ SPRINGPROOF_INLINE Vec<Real> rest_edges(const Springs<Real>& s) {
 }
 
 // What a spring does to its ends, as functions of the vector d from one to the other, the change of d in some
-// direction, k and the spring's place among the 13: the first end receives the result and the second one its
-// opposite.
+// direction, the spring's numbers (k, say, a pack of each) and its place among the 13: the first end receives
+// the result and the second one its opposite.
 
 /// T/|d| d
 template<class Laws, class Real>
 struct Force {
   using P = Pack<Real>;
   static constexpr bool needs_direction = false;
+  static constexpr int n_numbers = 1;
   Laws laws;
-  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>&, const P& k, int spring) const {
-    return laws.spring[spring].transverse(squared_length(d), k) * d;
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>&, const Real* k, int spring) const {
+    return laws.spring[spring].transverse(squared_length(d), load(k)) * d;
   }
 };
 
@@ -27,10 +28,25 @@ template<class Laws, class Real, Clamp clamp>
 struct Product {
   using P = Pack<Real>;
   static constexpr bool needs_direction = true;
+  static constexpr int n_numbers = 1;
   Laws laws;
-  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const P& k, int spring) const {
-    const SpringTangent<P> tangent = laws.spring[spring].template tangent<clamp>(squared_length(d), k);
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const Real* k,
+                                       int spring) const {
+    const SpringTangent<P> tangent = laws.spring[spring].template tangent<clamp>(squared_length(d), load(k));
     return (-tangent.along * dot(d, change)) * d - tangent.transverse * change;
+  }
+};
+
+/// The same for a kept tangent, whose numbers are those of SpringTangent.
+template<class Real>
+struct KeptProduct {
+  using P = Pack<Real>;
+  static constexpr bool needs_direction = true;
+  static constexpr int n_numbers = 2;
+  const Real* kept;
+  SPRINGPROOF_INLINE Vec<P> operator()(const Vec<P>& d, const Vec<P>& change, const Real* tangent,
+                                       int) const {
+    return (-load(tangent + pack_size<Real>) * dot(d, change)) * d - load(tangent) * change;
   }
 };
 
@@ -96,15 +112,14 @@ SPRINGPROOF_INLINE void unpack(const Real* from, std::ptrdiff_t distance, Real h
 /// @param to    the pack at the senders' place in the other row
 template<int spring, class Real, class Action>
 SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>& from,
-                                     const Vec<Pack<Real>>& v, const Real* stiffness, Real* to,
+                                     const Vec<Pack<Real>>& v, const Real* numbers, Real* to,
                                      Vec<Pack<Real>>& own) {
   using P = Pack<Real>;
   constexpr std::ptrdiff_t lanes = pack_size<Real>, side = 3 * (spring_steps[spring][0] + 1) * lanes;
   const Vec<P> d = load_three(to + side) + from;
   Vec<P> change{};
   if constexpr (Action::needs_direction) change = load_three(to + direction_at * lanes + side) - v;
-  const P k = load(stiffness + spring * lanes);
-  const Vec<P> f = action(d, change, k, spring);
+  const Vec<P> f = action(d, change, numbers + spring * Action::n_numbers * lanes, spring);
   own = own + f;
   Real* const sum = to + sums_at<Action> * lanes + side;
   // Rows are swept upwards: nothing has come before to the row and plane after the senders'.
@@ -118,25 +133,25 @@ SPRINGPROOF_INLINE void sweep_spring(const Action& action, const Vec<Pack<Real>>
 /// @param edge  distances from a node to its neighbours along x, y, z at rest
 template<int group, class Real, class Action>
 SPRINGPROOF_INLINE void sweep_group(const Action& action, const Vec<Pack<Real>>& edge,
-                                    const Vec<Pack<Real>>& u, const Vec<Pack<Real>>& v, const Real* stiffness,
+                                    const Vec<Pack<Real>>& u, const Vec<Pack<Real>>& v, const Real* numbers,
                                     Real* plane, Vec<Pack<Real>>& own) {
   constexpr int dy = spring_steps[3 * group][1], dz = spring_steps[3 * group][2];
   Vec<Pack<Real>> from = Vec<Pack<Real>>{} - u;
   if constexpr (dy != 0) from.y = (dy == 1 ? edge.y : -edge.y) - u.y;
   if constexpr (dz == 1) from.z = edge.z - u.z;
   Real* const to = plane + dy * tile * node_packs<Action> * pack_size<Real>;
-  sweep_spring<3 * group>(action, from, v, stiffness, to, own);
-  sweep_spring<3 * group + 1>(action, from, v, stiffness, to, own);
-  sweep_spring<3 * group + 2>(action, from, v, stiffness, to, own);
+  sweep_spring<3 * group>(action, from, v, numbers, to, own);
+  sweep_spring<3 * group + 1>(action, from, v, numbers, to, own);
+  sweep_spring<3 * group + 2>(action, from, v, numbers, to, own);
 }
 
 /// Sweeps all springs of a tile's packs in one row.
 /// @tparam upwards  whether there is a plane above
-/// @param stiffnesses  blocks of a pack's springs
-/// @param blocks    each pack's block; null: one after the other
-/// @param use       each pack's use; null: all have springs
+/// @param all_numbers  blocks of those of a pack's springs
+/// @param blocks       each pack's block; null: one after the other
+/// @param use          each pack's use; null: all have springs
 template<bool upwards, class Real, class Action>
-SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, const Real* stiffnesses,
+SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, const Real* all_numbers,
                                   const int* blocks, const unsigned char* use, Real* here, Real* above,
                                   std::ptrdiff_t n) {
   using P = Pack<Real>;
@@ -145,19 +160,20 @@ SPRINGPROOF_INLINE void sweep_row(const Springs<Real>& s, const Action& action, 
   const Vec<P> edge{P{} + edges.x, P{} + edges.y, P{} + edges.z};
   for (std::ptrdiff_t p = 0; p < n; ++p) {
     if (!use || (use[p] & sends_springs)) {
-      const Real* const stiffness = stiffnesses + (blocks ? blocks[p] : p) * stiffness_packs * lanes;
+      const Real* const numbers =
+          all_numbers + (blocks ? blocks[p] : p) * Action::n_numbers * stiffness_packs * lanes;
       const Vec<P> u = load_three(here + 3 * lanes);
       Vec<P> v{};
       if constexpr (Action::needs_direction) v = load_three(here + (direction_at + 3) * lanes);
       Real* const sum = here + (sums_at<Action> + 3) * lanes;
       Vec<P> own = load_three(sum);
-      sweep_spring<n_springs - 1>(action, Vec<P>{} - u, v, stiffness, here, own);
+      sweep_spring<n_springs - 1>(action, Vec<P>{} - u, v, numbers, here, own);
       if constexpr (upwards) {
-        sweep_group<0>(action, edge, u, v, stiffness, above, own);
-        sweep_group<1>(action, edge, u, v, stiffness, above, own);
-        sweep_group<2>(action, edge, u, v, stiffness, above, own);
+        sweep_group<0>(action, edge, u, v, numbers, above, own);
+        sweep_group<1>(action, edge, u, v, numbers, above, own);
+        sweep_group<2>(action, edge, u, v, numbers, above, own);
       }
-      sweep_group<3>(action, edge, u, v, stiffness, here, own);
+      sweep_group<3>(action, edge, u, v, numbers, here, own);
       store_three(sum, own);
     } else if constexpr (upwards) { // what group 2 sets
       clear_packs(above + (tile * node_packs<Action> + sums_at<Action>)*lanes, 9);
@@ -234,6 +250,7 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
                  k < slab.last ? layout.size : layout.plane, n_nodes,
                  s.volume_stiffness ? nullptr : use_of(k, j)); // from what is there, cells' terms are taken
   };
+  constexpr bool is_kept = Action::n_numbers == 2;
   // Without holes there are three kinds of rows in a plane, the first, the last and those between, which are
   // the same in all planes but the first and the last.
   const auto kind = [&](int j) { return j == 0 ? 0 : j == rows - 1 ? 2 : 1; };
@@ -249,7 +266,7 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
   }
   for (int k = slab.first; k < slab.last; ++k) {
     const bool upwards = k + 1 < layout.nodes[2];
-    if (!s.packed && (k == slab.first || k == 1 || !upwards))
+    if (!is_kept && !s.packed && (k == slab.first || k == 1 || !upwards))
       for (int j = 0; j < rows; j = j == 1 && rows > 3 ? rows - 1 : j + 1)
         fill_stiffness(s, t, k, j, stiffness + kind(j) * stiffness_row);
     if (upwards) {
@@ -257,8 +274,12 @@ void sweep_tile(const Springs<Real>& s, const Slab<Real>& slab, const Tile& t, c
       unpack_row(k + 1, 0);
     }
     for (int j = 0; j < rows; ++j) {
-      const Real* const of_row = s.packed ? s.packed : stiffness + kind(j) * stiffness_row;
-      const int* const blocks = s.packed ? of_packs<Real>(layout, s.block_of_pack, k, j) + t.first : nullptr;
+      const Real* of_row = s.packed ? s.packed : stiffness + kind(j) * stiffness_row;
+      const int* blocks = s.packed ? of_packs<Real>(layout, s.block_of_pack, k, j) + t.first : nullptr;
+      if constexpr (is_kept) {
+        of_row = action.kept + 2 * (packed_row<Real>(layout, k, j) + t.first * stiffness_packs * lanes);
+        blocks = nullptr;
+      }
       Real *const here = first_row(k) + j * row, *const above = first_row(k + 1) + j * row;
       if (upwards) {
         if (j + 1 < rows) unpack_row(k + 1, j + 1);

@@ -191,12 +191,16 @@ class MovingGrid : public MovingSprings {
             product[row] += node.tangent(r, c) * direction[column];
   }
 
-  /// Sets what tools press. A cycle of other nodes is prepared anew.
+  /// Sets what tools press, in a cycle that knows other nodes too.
   void see_tools(const Vector& at, Clamp clamp) {
     pressed_ = pressed_nodes(at, clamp);
     std::vector<Eigen::Index> nodes;
     for (const PressedNode& node : pressed_) nodes.push_back(x_in_field(node));
-    if (nodes != pressed_in_cycle_) speed_.forget(), is_prepared_ = false;
+    if (multigrid_ && nodes != pressed_in_cycle_) {
+      pressed_in_cycle_ = std::move(nodes);
+      multigrid_->set_blocks(blocks(multigrid_->scale()));
+      has_cycle_changed();
+    }
     if (real_time_) real_time_->set_blocks(blocks(multigrid_->scale()));
   }
   /// The entry of a field for x of a pressed node, of which a component at least is free, or -1.
@@ -303,6 +307,9 @@ class MovingGrid : public MovingSprings {
       multigrid_->set_blocks(blocks(multigrid_->scale()));
     }
     multigrid_->linearise(vectors_.to_field(at, at_));
+    has_cycle_changed();
+  }
+  void has_cycle_changed() {
     if (cycle_with_pull_ && cycle_with_pull_->matters()) cycle_with_pull_.reset();
     if (real_time_) real_time_->has_cycle_changed();
   }

@@ -162,16 +162,27 @@ void SpringField<Real>::pack_stiffness() {
         if (is_new) first_pack.push_back(at);
         block_of_pack_[index(at)] = found->second;
       }
-  constexpr std::ptrdiff_t line = 64 / sizeof(Real); // numbers in a cache line
   const auto n_blocks = static_cast<std::ptrdiff_t>(first_pack.size());
-  Field<Real>& packed = arrays_.emplace_back(Field<Real>::Zero(n_blocks * block + line));
-  const auto at = reinterpret_cast<std::size_t>(packed.data()) / sizeof(Real);
-  Real* const start = packed.data() + (line - static_cast<std::ptrdiff_t>(at) % line) % line;
+  Real* const start = add_array(n_blocks * block);
   for (std::ptrdiff_t b = 0; b < n_blocks; ++b)
     std::copy_n(all.data() + first_pack[index(b)] * block, block, start + b * block);
   springs_.packed = start;
   springs_.block_of_pack = block_of_pack_.data();
   springs_.pack_use = pack_use_.data();
+}
+
+/// Returns n zeros that begin on the boundary of a cache line.
+template<class Real>
+Real* SpringField<Real>::add_array(std::ptrdiff_t n) {
+  constexpr std::ptrdiff_t line = 64 / sizeof(Real); // numbers in a cache line
+  Field<Real>& room = arrays_.emplace_back(Field<Real>::Zero(n + line));
+  const auto at = reinterpret_cast<std::size_t>(room.data()) / sizeof(Real);
+  return room.data() + (line - static_cast<std::ptrdiff_t>(at) % line) % line;
+}
+
+template<class Real>
+void SpringField<Real>::keep_tangent() {
+  if (!kept_) kept_ = add_array(kept_size(springs_.layout, springs_.volume_stiffness != nullptr));
 }
 
 /// Runs a kernel over the slabs and then adds every slab's spill to the plane it belongs to.
@@ -195,7 +206,7 @@ void SpringField<Real>::for_each_slab(int components, Real* result, const Run& r
 template<class Real>
 template<class Action>
 void SpringField<Real>::on_threads(std::ptrdiff_t n, const Action& action) const {
-  mechanics::grid::on_threads(n, springs_.layout.size <= piece ? 1 : n_threads_, action);
+  mechanics::grid::on_threads(n, springs_.layout.size <= mechanics::grid::worth_threads ? 1 : n_threads_, action);
 }
 
 template<class Real>
@@ -229,12 +240,23 @@ void SpringField<Real>::product(Clamp clamp, const Field<Real>& displacement, co
 }
 
 template<class Real>
+void SpringField<Real>::kept_product(const Field<Real>& displacement, const Field<Real>& direction,
+                                     Field<Real>& product) const {
+  for_each_slab(3, product.data(), [&](const Slab<Real>& slab) {
+    kernels<Real>().kept_product(springs_, slab, kept_, displacement.data(), direction.data(),
+                                 product.data());
+  });
+  clear_held(product);
+  update_ghosts(body_, product);
+}
+
+template<class Real>
 void SpringField<Real>::inverse_diagonal(Clamp clamp, const Field<Real>& displacement, Field<Real>& inverse,
                                          const Field<Real>& added) const {
   const Layout& layout = springs_.layout;
   inverse.setZero(6 * layout.size);
   for_each_slab(6, inverse.data(), [&](const Slab<Real>& slab) {
-    kernels<Real>().diagonal(springs_, slab, clamp, displacement.data(), inverse.data());
+    kernels<Real>().diagonal(springs_, slab, clamp, displacement.data(), inverse.data(), kept_);
   });
   static constexpr int places[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}}; // numbers of the six arrays
   for_each_plane(layout, n_threads_, [&](int k) {

@@ -22,6 +22,12 @@ class SpringField {
   /// Tangent (N/mm) at a displacement times a direction; 0 on constrained entries.
   void product(Clamp clamp, const Field<Real>& displacement, const Field<Real>& direction,
                Field<Real>& product) const;
+  /// The same for the clamped tangent that inverse_diagonal() has kept, at the same displacement.
+  void kept_product(const Field<Real>& displacement, const Field<Real>& direction,
+                    Field<Real>& product) const;
+  /// Makes inverse_diagonal() keep the tangent: 26 numbers for every node, and 7 for every cell with a volume
+  /// term, which its products read in place of evaluating the law.
+  void keep_tangent();
   /// Inverses of the tangent's diagonal 3x3 blocks on the entries that are not constrained: six arrays, xx,
   /// yy, zz, yz, xz, xy.
   /// @param added  added to the tangent's diagonal; empty: nothing
@@ -37,6 +43,7 @@ class SpringField {
   Springs<Real> springs_;
   std::vector<Slab<Real>> slabs_;
   std::deque<Field<Real>> arrays_; ///< what springs_ and slabs_ point to
+  Real* kept_ = nullptr;     ///< room for a tangent, in arrays_, on the boundary of a cache line; null: none
   std::vector<unsigned char> pack_use_;
   std::vector<int> block_of_pack_;
   std::vector<bool> is_constrained_; ///< every entry of a field
@@ -45,6 +52,7 @@ class SpringField {
 
   void set_shares();
   void set_by_node();
+  Real* add_array(std::ptrdiff_t n);
   void pack_stiffness();
   void clear_held(Field<Real>& field) const;
   /// Calls action(0), ..., action(n - 1).

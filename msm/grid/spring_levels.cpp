@@ -71,6 +71,7 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
   SpringLevel(const Body& body, const SpringLevel* finer, int n_threads)
       : Level(3 * body.layout.size, n_threads), displacement(Field<float>::Zero(3 * body.layout.size)),
         body_(body), springs_(body, n_threads), finer_(finer) {
+    springs_.keep_tangent();
     if (finer) transfer_.emplace(finer->body_, body, n_threads);
   }
 
@@ -103,6 +104,15 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
     }
   }
 
+  /// Brings the inverse diagonal to the blocks, which others had been added to.
+  void replace_blocks_in_inverse() {
+    if (inverse_diagonal_.size() == 0) return; // the cycle ends at a finer level
+    for (const auto& [x, inverse] : without_blocks_)
+      for (int c = 0; c < 6; ++c) inverse_diagonal_[x + c * body_.layout.size] = inverse[index(c)];
+    without_blocks_.clear();
+    add_blocks_to_inverse();
+  }
+
   void restrict_diagonal() {
     diagonal.setZero(displacement.size());
     transfer_->restrict(finer_->diagonal, diagonal);
@@ -111,12 +121,13 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
   void linearise() override {
     if (finer_) transfer_->sample(finer_->displacement, displacement);
     springs_.inverse_diagonal(Clamp::yes, displacement, inverse_diagonal_, diagonal);
-    for (NodeBlock& added : blocks) add_to_inverse(added);
+    without_blocks_.clear();
+    add_blocks_to_inverse();
     constexpr float small = 0.1f; // share of the masses below which the smoother does without
     has_joined_ = joined && diagonal.cwiseProduct(inverse_diagonal_.head(diagonal.size())).maxCoeff() > small;
   }
   void multiply(Field<float>& direction, Field<float>& product) const override {
-    springs_.product(Clamp::yes, displacement, direction, product);
+    springs_.kept_product(displacement, direction, product);
     if (diagonal.size() > 0) add_product(product, diagonal, direction, n_threads_);
     if (has_joined_) joined(direction, product);
     add_blocks(blocks, body_.layout.size, direction, product);
@@ -162,6 +173,14 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
   }
 
  private:
+  void add_blocks_to_inverse() {
+    for (NodeBlock& added : blocks) {
+      std::array<float, 6>& before = without_blocks_.emplace_back(added.x, std::array<float, 6>{}).second;
+      for (int c = 0; c < 6; ++c) before[index(c)] = inverse_diagonal_[added.x + c * body_.layout.size];
+      add_to_inverse(added);
+    }
+  }
+
   /// Makes a node's inverse D that of its block with another one, B: (D^-1 + B)^-1 = D (1 + B D)^-1.
   /// Takes constrained components out of B.
   void add_to_inverse(NodeBlock& added) {
@@ -184,6 +203,7 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
 
   const Body& body_;
   bool has_joined_ = false;
+  std::vector<std::pair<std::ptrdiff_t, std::array<float, 6>>> without_blocks_; ///< inverses, by nodes' x
   SpringField<float> springs_;
   const SpringLevel* finer_;
   std::optional<Transfer<float>> transfer_; ///< between the finer level and this one
@@ -217,7 +237,9 @@ void SpringLevels::set_diagonal(const Field<double>& diagonal, Operator joined) 
 void SpringLevels::set_blocks(std::vector<NodeBlock> blocks) {
   rediscretised_.front()->blocks = std::move(blocks);
   for (std::size_t l = 1; l < rediscretised_.size(); ++l) rediscretised_[l]->restrict_blocks();
-  is_linearised_ = false;
+  if (!is_linearised_) return;
+  for (SpringLevel* level : rediscretised_) level->replace_blocks_in_inverse();
+  if (rediscretised_.size() == cycle_.levels.size()) cycle_.factorise_again();
 }
 
 void SpringLevels::linearise(const Field<double>& displacement) {

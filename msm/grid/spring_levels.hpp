@@ -57,7 +57,8 @@ class SpringLevels {
   ///                  The finest level has it where the masses are no small part of a node's diagonal.
   void set_diagonal(const Field<double>& diagonal, Operator joined = {});
 
-  /// Sets stiffnesses of single nodes from the next linearise() on. Coarse levels have them restricted, as
+  /// Sets stiffnesses of single nodes, for a cycle that is prepared too: largest eigenvalues, relative to the
+  /// diagonal that has them, hold with any. Coarse levels have them restricted, as
   /// masses are. Not for a body that is a part, and merged cells have them on the finest level alone.
   /// @param blocks  N/mm times scale(), of the finest body
   void set_blocks(std::vector<NodeBlock> blocks);
