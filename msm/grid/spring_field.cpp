@@ -181,8 +181,12 @@ Real* SpringField<Real>::add_array(std::ptrdiff_t n) {
 }
 
 template<class Real>
-void SpringField<Real>::keep_tangent() {
-  if (!kept_) kept_ = add_array(kept_size(springs_.layout, springs_.volume_stiffness != nullptr));
+bool SpringField<Real>::keep_tangent() {
+  constexpr std::ptrdiff_t most_bytes = 4 << 20;
+  const std::ptrdiff_t n = kept_size(springs_.layout, springs_.volume_stiffness != nullptr);
+  if (springs_.law == LawKind::hooke || n * std::ptrdiff_t{sizeof(Real)} > most_bytes) return false;
+  if (!kept_) kept_ = add_array(n);
+  return true;
 }
 
 /// Runs a kernel over the slabs and then adds every slab's spill to the plane it belongs to.

@@ -25,9 +25,11 @@ class SpringField {
   /// The same for the clamped tangent that inverse_diagonal() has kept, at the same displacement.
   void kept_product(const Field<Real>& displacement, const Field<Real>& direction,
                     Field<Real>& product) const;
-  /// Makes inverse_diagonal() keep the tangent: 26 numbers for every node, and 7 for every cell with a volume
-  /// term, which its products read in place of evaluating the law.
-  void keep_tangent();
+  /// Makes inverse_diagonal() keep the tangent from now on: 26 numbers for every node, and 7 for every cell with
+  /// a volume term, which kept_product() reads in place of evaluating the law. Not done where that is no faster:
+  /// for Hooke's law, and for bodies whose numbers do not stay in a cache.
+  /// @return whether it is done
+  bool keep_tangent();
   /// Inverses of the tangent's diagonal 3x3 blocks on the entries that are not constrained: six arrays, xx,
   /// yy, zz, yz, xz, xy.
   /// @param added  added to the tangent's diagonal; empty: nothing

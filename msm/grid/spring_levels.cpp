@@ -70,8 +70,7 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
  public:
   SpringLevel(const Body& body, const SpringLevel* finer, int n_threads)
       : Level(3 * body.layout.size, n_threads), displacement(Field<float>::Zero(3 * body.layout.size)),
-        body_(body), springs_(body, n_threads), finer_(finer) {
-    springs_.keep_tangent();
+        body_(body), springs_(body, n_threads), keeps_(springs_.keep_tangent()), finer_(finer) {
     if (finer) transfer_.emplace(finer->body_, body, n_threads);
   }
 
@@ -127,7 +126,10 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
     has_joined_ = joined && diagonal.cwiseProduct(inverse_diagonal_.head(diagonal.size())).maxCoeff() > small;
   }
   void multiply(Field<float>& direction, Field<float>& product) const override {
-    springs_.kept_product(displacement, direction, product);
+    if (keeps_)
+      springs_.kept_product(displacement, direction, product);
+    else
+      springs_.product(Clamp::yes, displacement, direction, product);
     if (diagonal.size() > 0) add_product(product, diagonal, direction, n_threads_);
     if (has_joined_) joined(direction, product);
     add_blocks(blocks, body_.layout.size, direction, product);
@@ -205,6 +207,7 @@ class SpringLevels::SpringLevel : public mechanics::grid::Level {
   bool has_joined_ = false;
   std::vector<std::pair<std::ptrdiff_t, std::array<float, 6>>> without_blocks_; ///< inverses, by nodes' x
   SpringField<float> springs_;
+  bool keeps_; ///< springs_ do, their tangent
   const SpringLevel* finer_;
   std::optional<Transfer<float>> transfer_; ///< between the finer level and this one
   mechanics::grid::DenseFactor<double> factor_;
