@@ -51,6 +51,23 @@ double fem_force(const cases::Case& definition, const Grading& grading) {
   return force_of(solve_fem_as_given(quarter_block::make(definition, grading)));
 }
 
+/// Force of a flat punch over that of the closed form for a disc of the area that is pressed. The rim is
+/// half-way between two nodes of an axis. No other node is as near to it as the indentation is deep: it
+/// would come out at the punch's side.
+/// Source: K. L. Johnson, Contact Mechanics (1985), section 3.4: F = 2 a d E / (1 - nu²)
+double punch_over_closed_form(int n_in_radius, double growth) {
+  constexpr double radius = 1, depth = 1e-4, block = 129; // mm
+  const double size = radius / (n_in_radius + 0.5);
+  cases::Case definition = small_strains(cases::Element::q1);
+  definition.tools = {quarter_block::pressed_down(
+      cases::tools::Punch{radius, -Eigen::Vector3d::UnitZ()}, Eigen::Vector3d::Zero(), depth)};
+  const Grading grading{size, 2 * n_in_radius,
+                        static_cast<int>(std::ceil(std::log(block / size) / std::log(growth))), growth};
+  const Answer answer = solve_fem_as_given(quarter_block::make(definition, grading));
+  const double force = force_of(answer), area = 4 * answer.solution.tools.front().area;
+  return force / (2 * std::sqrt(area / 3.14159265358979) * depth * youngs_modulus / (1 - nu * nu));
+}
+
 double msm_force(const cases::Case& definition, const Grading& grading) {
   std::optional<msm::DesignResult> design;
   return force_of(solve_springs(quarter_block::make(definition, grading), 1, design));
@@ -67,6 +84,17 @@ TEST_CASE("a sphere on a half space meets Hertz's force at the finite elements' 
                fine = fem_force(definition, {1. / 4, 6, 16, std::sqrt(2.)}) / hertz();
   CHECK(fine < coarse);
   CHECK((4 * fine - coarse) / 3 == Approx(1).epsilon(0.01)); // second order in the cells
+}
+
+TEST_CASE("a flat punch meets its closed form at the finite elements' limit", "[verification][release]") {
+  const double coarse = punch_over_closed_form(4, 2), fine = punch_over_closed_form(8, 2),
+               slowly = punch_over_closed_form(4, std::sqrt(2.));
+  CHECK(coarse < fine);
+  // First order in the cells under the punch, whose stress is infinite at the rim: sizes are 1/4.5 and 1/8.5.
+  const double limit = fine + (fine - coarse) * 4.5 / 4;
+  // Second order in the cells that grow.
+  const double of_growth = (4 * slowly / coarse - 1) / 3;
+  CHECK(limit * of_growth == Approx(1).epsilon(0.02));
 }
 
 TEST_CASE("springs of cubes, eight to a contact radius, have the force of finite elements to 5 %",
