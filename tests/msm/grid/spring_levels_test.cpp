@@ -184,6 +184,62 @@ TEST_CASE("one multigrid cycle removes most of an error, of bodies with gaps tha
     CHECK(std::sqrt(error.dot(product(error)) / motion.dot(product(motion))) < 0.1);
 }
 
+TEST_CASE(
+    "a cycle has stiffnesses of single nodes that are set before it is prepared, or after, or in turn") {
+  const Body body = clamped_body({16, 16, 16});
+  const Field<double> rest = Field<double>::Zero(3 * body.layout.size), motion = any_field(body, 1);
+  const auto stiff = [&](int first, double stiffness) { // N/mm, along z, at nodes of the top
+    std::vector<msm::grid::NodeBlock> blocks;
+    for (int j = first; j < first + 6; ++j)
+      for (int i = first; i < first + 6; ++i) {
+        blocks.push_back({body.layout.at(i, j, 16), Eigen::Matrix3f::Zero()});
+        blocks.back().block(2, 2) = static_cast<float>(stiffness);
+      }
+    return blocks;
+  };
+  const double stiffness = 100; // others of a node are 0.5
+  const msm::grid::SpringField<double> springs(body, 1);
+  const auto product = [&](const Field<double>& of) {
+    Field<double> force = rest;
+    springs.product(msm::Clamp::yes, rest, of, force);
+    for (const auto& [x, block] : stiff(5, stiffness))
+      force[x + 2 * body.layout.size] += stiffness * of[x + 2 * body.layout.size];
+    return force;
+  };
+  // Share of an error's energy that one cycle leaves.
+  const auto left_by = [&](const auto& prepare) {
+    msm::grid::SpringLevels multigrid(body, 1);
+    prepare(multigrid);
+    Field<double> found = rest;
+    multigrid.apply(product(motion), found);
+    const Field<double> error = multigrid.scale() * found - motion;
+    return error.dot(product(error)) / motion.dot(product(motion));
+  };
+  const auto set = [&](msm::grid::SpringLevels& multigrid, int first) {
+    multigrid.set_blocks(stiff(first, multigrid.scale() * stiffness));
+  };
+  const double before = left_by([&](auto& multigrid) {
+    set(multigrid, 5);
+    multigrid.linearise(rest);
+  });
+  const double after = left_by([&](auto& multigrid) {
+    multigrid.linearise(rest);
+    set(multigrid, 5);
+  });
+  const double in_turn = left_by([&](auto& multigrid) {
+    set(multigrid, 2);
+    multigrid.linearise(rest);
+    set(multigrid, 9);
+    set(multigrid, 5);
+  });
+  const double never = left_by([&](auto& multigrid) { multigrid.linearise(rest); });
+  CHECK(before < 0.1);
+  CHECK(never > 10 * before); // else the rest would say nothing
+  // The estimate of the largest eigenvalue has begun elsewhere.
+  CHECK(after == Approx(before).epsilon(0.1));
+  CHECK(in_turn == Approx(before).epsilon(0.1));
+}
+
 TEST_CASE("merged cells interpolate linear fields exactly, whatever the body") {
   const std::array<int, 3> factor = GENERATE(std::array<int, 3>{2, 2, 2}, std::array<int, 3>{2, 1, 2});
   const Cells fine = cells_of([](int i, int j, int k) { return (5 * i + 3 * j + 7 * k) % 4 != 1; });
