@@ -28,7 +28,7 @@ struct EquilibriumSettings {
   int max_convexified_per_step = 12; ///< limit; what has not converged by then will not
   /// Iterations after which a state is taken as it is; none: only where the tolerance is met.
   std::optional<int> enough_newton_per_step = {};
-  /// Where time is short, a full step that halves the residual at least needs no energies to be seen as a gain.
+  /// Whether a full step that halves the residual at least is seen as a gain without its energy.
   bool takes_full_steps = false;
   int max_load_steps = 400;
   int max_newton_iterations = 4000;         ///< limit over the whole path

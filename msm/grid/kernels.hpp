@@ -101,8 +101,9 @@ constexpr std::ptrdiff_t packed_size(const Layout& layout) {
 }
 
 /// Numbers that a clamped tangent is kept in, so that its products need no law: for every pack of a row's
-/// nodes each spring's transverse and along (SpringTangent), a pack of each, row by row; and from kept_cells()
-/// on, for every plane, arrays of its cells: the volume term's slope, and both numbers of the midlines.
+/// nodes each spring's transverse and along (SpringTangent), a pack of each, row by row; and from
+/// kept_cells() on, for every plane, arrays of its cells: the volume term's slope, and both numbers of the
+/// midlines.
 constexpr std::ptrdiff_t kept_cells(const Layout& layout) {
   return 2 * packed_size(layout);
 }

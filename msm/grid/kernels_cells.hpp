@@ -179,7 +179,8 @@ __attribute__((noinline)) void cell_force(const Springs<Real>& s, const Slab<Rea
   sweep_cells(s, slab, action, force);
 }
 
-// What a product needs of cells' tangents, from `first` in plane k on: as their laws give it, or as it is kept.
+// What a product needs of cells' tangents, from `first` in plane k on: as their laws give it, or as it is
+// kept.
 template<Clamp how, class Real, class Laws>
 struct TangentByLaw {
   static constexpr Clamp clamp = how;

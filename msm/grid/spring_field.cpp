@@ -210,7 +210,8 @@ void SpringField<Real>::for_each_slab(int components, Real* result, const Run& r
 template<class Real>
 template<class Action>
 void SpringField<Real>::on_threads(std::ptrdiff_t n, const Action& action) const {
-  mechanics::grid::on_threads(n, springs_.layout.size <= mechanics::grid::worth_threads ? 1 : n_threads_, action);
+  mechanics::grid::on_threads(n, springs_.layout.size <= mechanics::grid::worth_threads ? 1 : n_threads_,
+                              action);
 }
 
 template<class Real>

@@ -25,9 +25,9 @@ class SpringField {
   /// The same for the clamped tangent that inverse_diagonal() has kept, at the same displacement.
   void kept_product(const Field<Real>& displacement, const Field<Real>& direction,
                     Field<Real>& product) const;
-  /// Makes inverse_diagonal() keep the tangent from now on: 26 numbers for every node, and 7 for every cell with
-  /// a volume term, which kept_product() reads in place of evaluating the law. Not done where that is no faster:
-  /// for Hooke's law, and for bodies whose numbers do not stay in a cache.
+  /// Makes inverse_diagonal() keep the tangent from now on: 26 numbers for every node, and 7 for every cell
+  /// with a volume term, which kept_product() reads in place of evaluating the law. Not done where that is no
+  /// faster: for Hooke's law, and for bodies whose numbers do not stay in a cache.
   /// @return whether it is done
   bool keep_tangent();
   /// Inverses of the tangent's diagonal 3x3 blocks on the entries that are not constrained: six arrays, xx,
@@ -45,7 +45,7 @@ class SpringField {
   Springs<Real> springs_;
   std::vector<Slab<Real>> slabs_;
   std::deque<Field<Real>> arrays_; ///< what springs_ and slabs_ point to
-  Real* kept_ = nullptr;     ///< room for a tangent, in arrays_, on the boundary of a cache line; null: none
+  Real* kept_ = nullptr; ///< room for a tangent, in arrays_, on the boundary of a cache line; null: none
   std::vector<unsigned char> pack_use_;
   std::vector<int> block_of_pack_;
   std::vector<bool> is_constrained_; ///< every entry of a field

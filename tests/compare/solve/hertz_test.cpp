@@ -59,8 +59,8 @@ double punch_over_closed_form(int n_in_radius, double growth) {
   constexpr double radius = 1, depth = 1e-4, block = 129; // mm
   const double size = radius / (n_in_radius + 0.5);
   cases::Case definition = small_strains(cases::Element::q1);
-  definition.tools = {quarter_block::pressed_down(
-      cases::tools::Punch{radius, -Eigen::Vector3d::UnitZ()}, Eigen::Vector3d::Zero(), depth)};
+  definition.tools = {quarter_block::pressed_down(cases::tools::Punch{radius, -Eigen::Vector3d::UnitZ()},
+                                                  Eigen::Vector3d::Zero(), depth)};
   const Grading grading{size, 2 * n_in_radius,
                         static_cast<int>(std::ceil(std::log(block / size) / std::log(growth))), growth};
   const Answer answer = solve_fem_as_given(quarter_block::make(definition, grading));

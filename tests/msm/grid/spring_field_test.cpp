@@ -125,7 +125,8 @@ TEST_CASE("products of a kept tangent are those of the tangent") {
       const bool has_exponents = both.grid.body.exponents.has_value();
       REQUIRE(springs.keep_tangent() == has_exponents);
       if (!has_exponents) return;
-      const Field<Real> at = both.field<Real>(both.displacement), direction = both.field<Real>(both.direction);
+      const Field<Real> at = both.field<Real>(both.displacement),
+                        direction = both.field<Real>(both.direction);
       Field<Real> inverse, reference = direction, product = direction;
       springs.inverse_diagonal(Clamp::yes, at, inverse);
       springs.kept_product(at, direction, product);
