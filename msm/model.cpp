@@ -15,8 +15,18 @@
 
 namespace springproof::msm {
 
-bool prefers_multigrid(const cases::Grid& grid, double n_nodes) {
-  return n_nodes >= multigrid_from && !(grid.slenderness() > cases::Grid::thin && n_nodes <= most_factorised);
+namespace {
+
+/// Whether multigrid knows what a case asks for, whatever its springs are.
+bool knows(const cases::Case& definition) {
+  return !cases::has_memory(definition) && (definition.tools.empty() || definition.dynamics);
+}
+
+} // namespace
+
+bool prefers_multigrid(const cases::Case& definition, const cases::Grid& grid, double n_nodes) {
+  return knows(definition) && n_nodes >= multigrid_from &&
+         !(grid.slenderness() > cases::Grid::thin && n_nodes <= most_factorised);
 }
 
 bool takes_multigrid(const cases::Scene& scene, const SpringBody& springs, Path wanted) {
@@ -26,8 +36,7 @@ bool takes_multigrid(const cases::Scene& scene, const SpringBody& springs, Path 
     return !(cell.exponents == cells->front().exponents) || *std::min_element(k.begin(), k.end()) < 0 ||
            cell.volume < 0;
   };
-  const bool can = scene.mesh.grid && cells && !cases::has_memory(scene.definition) &&
-                   (scene.definition.tools.empty() || scene.definition.dynamics) &&
+  const bool can = scene.mesh.grid && cells && knows(scene.definition) &&
                    std::none_of(cells->begin(), cells->end(), is_another);
   if (wanted == Path::multigrid && !can)
     throw cases::InputError(
@@ -35,7 +44,7 @@ bool takes_multigrid(const cases::Scene& scene, const SpringBody& springs, Path 
         "internal diagonals and a volume term, springs of one law, no negative stiffness, "
         "a material without prony and, in statics, a case without tools");
   if (wanted != Path::automatic) return wanted == Path::multigrid;
-  return can && prefers_multigrid(*scene.mesh.grid, double(scene.mesh.nodes.size()));
+  return can && prefers_multigrid(scene.definition, *scene.mesh.grid, double(scene.mesh.nodes.size()));
 }
 
 Model::Model(const cases::Scene& scene, const SpringBody& springs, const ModelOptions& options)

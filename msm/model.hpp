@@ -30,8 +30,8 @@ struct ModelOptions {
   std::shared_ptr<const cases::Sharing> sharing = {}; ///< the ranks that get the answer together, then
 };
 
-/// Whether a grid with so many nodes, of springs that multigrid takes, is solved by it.
-bool prefers_multigrid(const cases::Grid& grid, double n_nodes);
+/// Whether a case on a grid with so many nodes, of springs that multigrid takes, is solved by it.
+bool prefers_multigrid(const cases::Case& definition, const cases::Grid& grid, double n_nodes);
 
 /// Whether the multigrid path is taken.
 /// @throws cases::InputError when it is wanted and cannot be taken

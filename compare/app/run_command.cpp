@@ -59,7 +59,7 @@ std::string line_of(const RunOptions& run, const cases::Case& definition,
   const auto adds = [&](const char* word) { return std::find(more.begin(), more.end(), word) != more.end(); };
   if (!run.displacements.client.empty() && !adds("--only"))
     words.insert(words.end(), {"--client", run.displacements.client});
-  if (!run.replay.empty() && !adds("--designs")) words.insert(words.end(), {"--replay", run.replay});
+  if (!run.replay.empty()) words.insert(words.end(), {"--replay", run.replay});
   words.insert(words.end(), more.begin(), more.end());
   return shell_line(words);
 }
@@ -161,9 +161,10 @@ std::vector<Estimate> estimate_designs(const RunOptions& options, const Question
 
 /// The springs of every design against the same finite elements.
 int run_designs(const RunOptions& options) {
-  const std::vector<Question> questions =
+  std::vector<Question> questions =
       read_questions(options.files, options.settings, {cases::Side::fem, options.meshes});
   check_memory(questions);
+  questions = with_recording(std::move(questions), options.replay);
   claim_folder(options.out);
   std::vector<Ranking> rankings;
   bool failed = false;
@@ -393,7 +394,7 @@ void add_run_command(CLI::App& program, Action& chosen) {
       ->excludes("--peer")
       ->excludes("--msm-displacements")
       ->excludes("--client");
-  add_replay_option(*command, options->replay)->excludes(command->get_option("--designs"));
+  add_replay_option(*command, options->replay);
   options->program = &program;
 }
 

@@ -243,7 +243,7 @@ Estimate estimate_springs(const BodySize& body) {
     return in_steps("springs (in steps)", unknowns, *definition.msm.real_time, definition, springs_lattice);
   const bool is_on_grid = body.outline.mesh.grid && !is_assembled(body.outline);
   Estimate estimate;
-  if (is_on_grid && msm::prefers_multigrid(*body.outline.mesh.grid, body.n_nodes))
+  if (is_on_grid && msm::prefers_multigrid(definition, *body.outline.mesh.grid, body.n_nodes))
     estimate = linear("springs (matrix-free)", unknowns, spring_entries(nodes_along(body, 0)), grid_springs);
   else
     estimate = factorised("springs (factorised)", unknowns, springs_lattice);

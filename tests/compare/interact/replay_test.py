@@ -75,6 +75,17 @@ def check_methods(springproof, folder, motion):
     assert "surface %" in text and "left %" in text and "60 Hz" in text and max(map(len, text.splitlines())) <= 100, text
 
 
+def check_designs(springproof, folder, motion):
+    """`--designs` ranks springs under the pulls: the case's own design errs as `run` says, and what is proposed next keeps the recording."""
+    words = [springproof, "run", "case.toml", "--replay", "pulls.csv"]
+    done = subprocess.run([*words, "--designs", "hybrid,matched", "--json"], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, (done.returncode, done.stderr)
+    print(done.stdout[:3000])
+    text = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False).stdout
+    next_lines = [line for line in text.splitlines() if "springproof run" in line or "--designs" in line]
+    assert next_lines and all("--replay" in line for line in next_lines), text
+
+
 def main():
     springproof, source, folder = (Path(word).resolve() for word in sys.argv[1:])
     folder.mkdir(parents=True, exist_ok=True)
@@ -87,6 +98,7 @@ def main():
         assert (folder / "first" / name).read_bytes() == (folder / "second" / name).read_bytes(), name
     check_surface(motions[0])
     check_methods(springproof, folder, motions[0])
+    check_designs(springproof, folder, motions[0])
     print(f"{len(written)} files of two replays are the same; the surfaces are {motions[0]['surface']['error_percent']:.3g} % apart")
 
 

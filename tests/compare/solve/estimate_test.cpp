@@ -85,6 +85,16 @@ TEST_CASE("estimates name the solver that the model will take, and grow with the
   CHECK(before.size() == 4);
 }
 
+TEST_CASE("springs beside a tool are factorised at rest, and not in motion") {
+  cases::Case definition = cube(40);
+  definition.tools.emplace_back();
+  const Estimate at_rest = compare::estimate_springs(body(definition));
+  CHECK_THAT(at_rest.model, Contains("factorised"));
+  CHECK(at_rest.megabytes > 1000);
+  definition.dynamics = cases::Dynamics{};
+  CHECK_THAT(compare::estimate_springs(body(definition)).model, Contains("matrix-free"));
+}
+
 TEST_CASE("the memory of models that were measured is announced") {
   cases::Case bar = cube(1); // rows of 17 and 33 nodes fill packs of 16 badly
   std::get<cases::Box>(bar.body).cells = {16, 16, 64};
