@@ -1,6 +1,9 @@
+#include "cases/case/read_case.hpp"
 #include "cases/mesh/mesh.hpp"
+#include "cases/scene/scene.hpp"
 #include "mechanics/dynamics/time_integrator.hpp"
 #include "msm/grid/moving_grid.hpp"
+#include "msm/model.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -43,15 +46,17 @@ msm::Problem held_at(const cases::Mesh& mesh, double height) {
   return problem;
 }
 
+constexpr int n_warm = 10;  ///< steps that are not timed
+constexpr int n_rounds = 4; ///< of a tool
+
 /// Timed steps, under loads that go on for ever.
-void run_steps(benchmark::State& state, Moving& body, double step, mechanics::IntegrationSettings settings) {
+void run_steps(benchmark::State& state, msm::MovingSprings& body, const msm::Vector& rest, double n_unknowns,
+               double step, mechanics::IntegrationSettings settings) {
   settings.newton.max_newton_iterations = 1 << 30;
-  const msm::Vector rest = msm::Vector::Zero(body.vectors.size());
-  mechanics::TimeIntegrator motion(*body.motion, {cases::Scheme::implicit_euler}, {0, rest, rest, {}},
-                                   settings);
+  mechanics::TimeIntegrator motion(body, {cases::Scheme::implicit_euler}, {0, rest, rest, {}}, settings);
   int n = 0;
-  for (int warm = 0; warm < 10; ++warm) motion.advance(++n * step);
-  const auto before = body.motion->work();
+  for (int warm = 0; warm < n_warm; ++warm) motion.advance(++n * step);
+  const auto before = body.work();
   const int newton_before = motion.work().newton_iterations;
   std::vector<double> milliseconds;
   milliseconds.reserve(1 << 20);
@@ -65,10 +70,10 @@ void run_steps(benchmark::State& state, Moving& body, double step, mechanics::In
   std::sort(milliseconds.begin(), milliseconds.end());
   const auto n_steps = static_cast<double>(milliseconds.size());
   const auto at = [&](double part) { return milliseconds[static_cast<std::size_t>(part * (n_steps - 1))]; };
-  const auto work = body.motion->work() - before;
-  state.counters["masses"] = static_cast<double>(body.problem.mesh.nodes.size());
-  state.counters["unknowns"] = static_cast<double>(body.grid.n_unknowns);
+  const auto work = body.work() - before;
+  state.counters["unknowns"] = n_unknowns;
   state.counters["median_ms"] = at(0.5);
+  state.counters["p90_ms"] = at(0.9);
   state.counters["p99_ms"] = at(0.99);
   state.counters["most_ms"] = milliseconds.back();
   state.counters["Newton"] = (motion.work().newton_iterations - newton_before) / n_steps;
@@ -78,7 +83,13 @@ void run_steps(benchmark::State& state, Moving& body, double step, mechanics::In
   state.counters["unfinished"] = motion.n_unfinished();
   state.counters["largest_residual"] = motion.largest_residual();
   state.counters["largest_mm"] = motion.now().displacement.cwiseAbs().maxCoeff();
-  state.counters["Munknowns_steps/s"] = static_cast<double>(body.grid.n_unknowns) / (1e3 * at(0.5));
+  state.counters["Munknowns_steps/s"] = n_unknowns / (1e3 * at(0.5));
+}
+
+void run_steps(benchmark::State& state, Moving& body, double step,
+               const mechanics::IntegrationSettings& settings) {
+  run_steps(state, *body.motion, msm::Vector::Zero(body.vectors.size()),
+            static_cast<double>(body.grid.n_unknowns), step, settings);
 }
 
 /// Steps to a tolerance of 10^-exponent; of exponent 0, in real time with six iterations at most.
@@ -159,6 +170,57 @@ void cube(benchmark::State& state, const msm::CellStiffness& cell, bool is_consi
   run_steps(state, body, 0.02, to_tolerance(state.range(1)));
 }
 
+const char* const poked_cube = R"(
+schema = 1
+name = "poked-cube"
+[body]
+shape = "box"
+size = [40, 40, 40]
+cells = [16, 16, 16]
+[material]
+model = "linear_elastic"
+youngs_modulus = 0.01
+poissons_ratio = 0.35
+density = 1000
+stiffness_damping = 0.002
+[[fixed]]
+region = "z-"
+[[tool]]
+name = "ball"
+shape = "sphere"
+centre = [20, 20, 50]
+radius = 10
+displacement = [0, 0, -2]
+history = { sine = 0.5 }
+[dynamics]
+scheme = "implicit_euler"
+step = 0.0166666666666667
+end = 1
+[msm]
+design = "hybrid"
+)";
+
+/// A soft cube of 16^3 cells, held below; a ball goes 2 mm into its top and out again, in 60 steps a time, as
+/// beside a tool by hand.
+/// Range: threads.
+void beside_tool(benchmark::State& state) {
+  cases::Case definition = cases::read_case_text(poked_cube, "poked_cube");
+  const double step = definition.dynamics->step;
+  const Eigen::Vector3d start = definition.tools.front().at, deepest = start + Eigen::Vector3d(0, 0, -2);
+  auto& path = definition.tools.front().path;
+  for (int n = 0; n < 2 * n_rounds + 1; ++n) {
+    const Eigen::Vector3d& at = n % 2 == 0 ? start : deepest;
+    path.push_back({(n_warm + 30 * n) * step, at.x(), at.y(), at.z()});
+  }
+  const cases::Scene scene = cases::make_scene(definition);
+  const double edge = scene.mesh.grid->spacing[0], softer = 0.01 / 0.3; // than those springs
+  msm::MovingBody body(scene, std::vector<msm::CellStiffness>{of_edge(power_log, edge * softer)},
+                       {msm::Path::automatic, static_cast<int>(state.range(0)), {}, {}});
+  const msm::Points rest(scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
+  const auto n_unknowns = static_cast<double>(3 * body.problem().mesh.nodes.size());
+  run_steps(state, body.motion(), body.to_vector(rest), n_unknowns, step, mechanics::to_few_digits(3e-4));
+}
+
 } // namespace
 
 BENCHMARK_CAPTURE(interactive, springs, springs)
@@ -196,6 +258,13 @@ BENCHMARK_CAPTURE(cube, consistent_masses, hybrid, true)
     ->ArgsProduct({{1}, {3}})
     ->Unit(benchmark::kMillisecond)
     ->Iterations(40)
+    ->UseManualTime();
+BENCHMARK(beside_tool)
+    ->ArgNames({"threads"})
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(60 * n_rounds)
     ->UseManualTime();
 
 } // namespace motions
