@@ -16,8 +16,8 @@ class ElementEquations : public mechanics::DynamicProblem {
   /// Whether the last direction was not found.
   virtual bool linear_solver_failed() const { return false; }
 
-  /// Work on the nodes alone says nothing where cells have unknowns of their own, while supports still move,
-  /// or when one step is exact.
+  /// Merit of a line search: the work, or none where cells have unknowns of their own, while supports still
+  /// move, or when one step is exact.
   mechanics::Merit merit() const override {
     return has_internal_ || is_linear_ || largest_gap_ > 0 ? mechanics::Merit::none : mechanics::Merit::work;
   }

@@ -52,7 +52,7 @@ class Assembly {
   /// mechanics::DynamicProblem change.
   void set_memory(const cases::Case& definition);
   mechanics::FadingMemory* memory() { return memory_ ? &*memory_ : nullptr; }
-  /// Stresses that it is of.
+  /// Elastic stresses that the memory is computed from.
   mechanics::Vector elastic_stresses(const State& state);
 
   std::size_t n_internal() const { return n_internal_; }

@@ -80,7 +80,7 @@ class WithPull {
   /// @param size    size of a vector
   void prepare(const Pull& pull, Eigen::Index size,
                const std::function<void(const VectorIn<Real>&, VectorIn<Real>&)>& invert);
-  /// Whether the pull makes its place more than twice as stiff; what it does else, conjugate gradients find.
+  /// Whether the pull makes its place more than twice as stiff. A weaker pull is left to conjugate gradients.
   bool matters() const { return matters_; }
   /// @param solution  by A, becomes that with the pull
   void correct(const Pull& pull, VectorIn<Real>& solution) const;
@@ -160,8 +160,8 @@ class MovingSprings : public mechanics::DynamicProblem {
     pull_.reset();
     has_pull_changed();
   }
-  /// Residuals are relative to what has pulled in any step, too: of that a step tells where it has ended,
-  /// none forgets all. (Before its end a stiff spring has forces that mean nothing.)
+  /// Remembers the size of the pull at the end of a step: residuals are relative to the largest one, too.
+  /// (Before the end of a step a stiff spring has forces that mean nothing.)
   void remember_pull(const Vector& at) {
     if (pull_) largest_pull_ = std::max(largest_pull_, pull_->size(at));
   }
@@ -246,7 +246,7 @@ class MovingSprings : public mechanics::DynamicProblem {
   const Entries& entries() const { return entries_; }
   const mechanics::StepTerms& terms() const { return *terms_; }
   const std::optional<Pull>& pull() const { return pull_; }
-  /// What was known of the one before is no longer so.
+  /// Called when the pull has changed: drops what was computed for the earlier one.
   virtual void has_pull_changed() {}
   /// What a tool adds at a node that it presses.
   struct PressedNode {

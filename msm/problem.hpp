@@ -19,8 +19,8 @@ struct Problem {
   Lattice lattice;
   std::vector<cases::NodeVector> force; ///< applied at full load, N
   std::vector<bool> is_constrained;     ///< constrained degrees of freedom: 3*point + component
-  /// Displacement (mm) of constrained points that move, at a load factor; empty: none does.
-  /// They are the same points at any, in the same order, and kept until the next call.
+  /// Displacements (mm) of the constrained points that move, at a load factor; empty: none moves. The points
+  /// and their order do not depend on the load factor. The result is valid until the next call.
   std::function<const std::vector<cases::NodeVector>&(double load_factor)> supports{};
 
   std::shared_ptr<mechanics::Contact> contact{}; ///< with the scene's tools; null: there are none

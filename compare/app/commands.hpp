@@ -45,7 +45,7 @@ void give_up(const std::string& message, int status);
 
 /// Colours verdicts at the beginnings of lines of std::cout: met green, missed and failed red, warnings
 /// yellow. Only on a terminal, unless NO_COLOR is set (no-color.org) or TERM is "dumb".
-/// @return ends it when it is gone
+/// @return an object whose destruction ends the colouring
 std::shared_ptr<void> coloured_output();
 
 /// The program's commands without those that --help leaves out.

@@ -197,7 +197,7 @@ void add_interact_command(CLI::App& program, Action& chosen) {
   command->add_flag("--stay", options->stays, "go on when the page is closed, until Ctrl-C");
   command->add_option("--seconds", options->seconds, "end after so many seconds in any case")
       ->check(number_between(0.1, 1e6));
-  command->add_option("--out", options->out, "folder for the recording of the pulls");
+  command->add_option("--out", options->out, "folder for the recordings of pulls and of tools");
   command->add_flag(
       "--json", options->json,
       "what has been, as one JSON document on standard output; the address goes to standard error");

@@ -19,7 +19,8 @@
 /// modulus nor on the cells' edge.
 namespace springproof::compare {
 
-/// Why two sides have no errors, which are in either's answers; empty: they have.
+/// Reason why springs have no errors from finite elements; empty if they have.
+/// @param fem, msm  answers, of which the side of that name is taken
 std::string why_without_errors(const Answers& fem, const Answers& msm);
 
 struct CubeTest {

@@ -90,7 +90,7 @@ class Simulation {
   /// What the page draws: see DrawnSurface in simulation.cpp, whose nodes are in the order of a frame.
   const std::string& geometry() const { return geometry_; }
 
-  /// What has been, after stop(). A recording is of the motion since its last start.
+  /// Summary of the motion, after stop(). A recording is of the motion since its last start.
   SimulationSummary summary() const;
   bool has_recording() const { return !recording_.empty(); }
   bool is_recording_full() const {

@@ -72,7 +72,7 @@ class FinishedCases {
   /// The answers of an earlier command, with a line that says so. Collective over MPI_COMM_WORLD, as keep().
   std::optional<Answers> find(const Question& question) const;
 
-  /// Single meshes of the case's mesh study are no longer needed then.
+  /// Keeps the answers to a question, and drops those on the single meshes of its study.
   /// @throws InputError if the file cannot be written
   void keep(const Question& question, const Answers& answers) const;
 
@@ -102,7 +102,7 @@ std::vector<int> divide(const std::vector<Question>& questions, int n_shards);
 
 /// @throws InputError if it cannot be written
 void write_record(const std::string& folder, ShardRecord record);
-/// That of an earlier command, before its folder is used again.
+/// Removes the record of an earlier command, before its folder is used again.
 void remove_record(const std::string& folder);
 
 /// All shards of one command.

@@ -78,7 +78,7 @@ Answers solve_reference(const cases::Scene& scene, int meshes = 0);
 /// where one comes to rest, need not be stable.
 bool is_stable(const cases::Solution& springs);
 
-/// What a trial has to show for itself when it is held against others.
+/// The numbers by which trials are ranked.
 struct Standing {
   std::optional<double> worst{}; ///< |error|, percent; absent where there is none, or the trial is not stable
   double bar = 0;                ///< points: what the reference's uncertainty leaves of it

@@ -7,7 +7,7 @@
 /// with several substeps and iterations, by their errors and the time of a frame: `springproof sweep --at`.
 namespace springproof::compare {
 
-/// Frames' time that a frame may take of what is followed: what is next best may miss the rate.
+/// Longest time of a frame, in frames, of a configuration that is followed: the next best may miss the rate.
 constexpr double most_frames = 1.5;
 
 /// Searches by halving. Bodies come to rest, those with [dynamics] move in steps of a frame. Designs whose

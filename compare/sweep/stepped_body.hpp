@@ -37,7 +37,7 @@ struct Rest {
   /// Failed where a step is not solved or the body flies off; converged at rest; skipped where it still moves
   /// and its mean is wanted.
   cases::Solution solution;
-  /// By which a node has moved in the last half second, of the largest displacement.
+  /// Largest way of a node in the last half second, percent of the largest displacement.
   double moves_percent = 0;
 };
 

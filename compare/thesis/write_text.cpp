@@ -117,8 +117,8 @@ void write_advice_table(std::ostream& out, const std::vector<Advice>& advice) {
       "  ", "  ");
   if (differs)
     write_paragraph(out,
-                    "A case that names no design takes the one on the right: its rule asks for a large "
-                    "lattice that stays stable, not for this cube alone.",
+                    "A case of forces on nodes that names no design takes the one on the right: its rule asks "
+                    "for a large lattice that stays stable, not for this cube alone.",
                     "  ", "  ");
 }
 

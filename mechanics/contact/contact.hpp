@@ -79,14 +79,14 @@ class Contact {
   };
   Misfit misfit(const DisplacementAt& displacement, double load_factor) const;
 
-  /// Multipliers take the values of pressures and friction, whose bounds follow.
+  /// Sets the multipliers to the pressures and the friction, and the friction's bounds with them.
   void augment(const DisplacementAt& displacement, double load_factor);
   /// Brings the friction's bounds and planes to the pressures, where that would change its forces by more
   /// than a millionth of the bounds.  @return whether there was nothing to change
   bool settle(const DisplacementAt& displacement, double load_factor);
   /// Has friction remember where points are on the tools, and its forces, from now on.
   void end_step(const DisplacementAt& displacement, double load_factor);
-  /// Multipliers become 0, and points have always been where they are at rest, as before a path from there.
+  /// Sets the multipliers to 0 and the memory of friction to the body at rest, as before a load path.
   void forget();
   /// Takes the pressures' multipliers of another state of the same contact, and keeps what friction knows.
   void take_pressures_of(const Contact& other) {
@@ -94,17 +94,16 @@ class Contact {
     ++revision_;
   }
   bool has_friction() const;
-  /// Whether every point goes from one state to another on the outside of the tools. A step that takes a
-  /// point deeper into a tool than to another of its sides leads to an equilibrium in which it came out
-  /// there: its straight way, as the tool sees it, is inside by more than a twentieth of a face's side and
-  /// than its ends.
+  /// Whether no point passes through a tool between two states. A step that does leads to an equilibrium in
+  /// which the point is on another side of the tool. A point's straight way, seen from the tool, must not be
+  /// deeper inside than both a twentieth of a face's side and its own ends.
   bool is_way_open(const DisplacementAt& from, double load_from, const DisplacementAt& to,
                    double load_to) const;
   /// Counts the changes of multipliers.
   int revision() const { return revision_; }
 
   const std::vector<ToolSide>& sides() const { return sides_; }
-  /// Has a tool go where a path says from now on.  @param path  as Tool::path
+  /// Sets the path of a tool, from now on.  @param path  as Tool::path
   void lead(std::size_t tool, std::vector<std::array<double, 4>> path) {
     sides_[tool].tool.path = std::move(path);
   }

@@ -41,9 +41,9 @@ struct StepTerms {
   /// Limit on the linear solver's iterations, over the whole step; none: as many as it takes.
   std::optional<int> enough_linear_iterations = {};
   bool in_single_precision = false; ///< directions may be found so
-  /// One of several to the time asked for, and not the last: nobody asks what it leaves of its equation.
+  /// Whether it is one of several substeps, and not the last one: its residual is not reported.
   bool is_substep = false;
-  /// s from the step's beginning to its equation: what a material's memory fades in. Infinite: all has faded.
+  /// Time (s) from the step's beginning to its equation, in which a memory fades. Infinite: all has faded.
   double duration = std::numeric_limits<double>::infinity();
   double time = 0; ///< s: the equation's, at which tools are where their histories say
 };

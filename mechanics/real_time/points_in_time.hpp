@@ -26,14 +26,14 @@ class PointsInTime : public DynamicProblem {
   /// @param scene  the points are its mesh's nodes; must outlive this
   PointsInTime(const cases::Scene& scene, PointBody body, MakeStep make_step);
 
-  /// Has Newton's method in place of the method of steps, or that again.
+  /// Switches to Newton's method in place of the method of steps, or back.
   void solve_by_newton(bool does) { has_method_ = !does; }
 
   /// Holds a place of the body by a spring to a place outside of it, which methods solve with the body, until
   /// let_go(). Newton's method does not take it.
   PullOfPoints& hold(PullOfPoints pull) { return pull_.emplace(std::move(pull)); }
   void let_go() { pull_.reset(); }
-  /// Residuals are relative to what has pulled in any step, too: of that a step tells where it has ended.
+  /// Remembers the size of the pull at the end of a step: residuals are relative to the largest one, too.
   void remember_pull(const Vector& at) {
     if (pull_) largest_pull_ = std::max(largest_pull_, size_of_pull(at));
   }

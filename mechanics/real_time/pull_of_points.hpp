@@ -20,7 +20,7 @@ struct PullOfPoints {
   Eigen::Vector3d force(const Points& displacement) const {
     return stiffness * (target - mean(displacement));
   }
-  /// Whether it is the other one, drawn elsewhere.
+  /// Whether another pull has the same stiffness and points, whatever its target.
   bool is_at_place_of(const std::optional<PullOfPoints>& other) const {
     return other && other->stiffness == stiffness && other->weights == weights;
   }

@@ -41,7 +41,7 @@ struct StepEquation {
 /// @return iterations
 using MakeStep = std::function<int(const StepEquation& step, Points& at)>;
 
-/// What a method has come to that leaves no finite residual.
+/// Message of a step whose residual is not finite.
 constexpr const char* no_finite_place = "steps in real time: a node is at no finite place, or a cell is "
                                         "turned inside out that has no forces then";
 

@@ -80,7 +80,8 @@ struct ModuliMisfit {
   std::string text; ///< both sets of constants, in a sentence
 };
 
-/// What is told of: a body's error follows its moduli's one to one, and 5 % is what a mesh may err by.
+/// Misfit from which on a warning is given. A body's error is about that of its moduli, and 5 % is what a
+/// mesh may err by.
 constexpr double told_moduli_misfit = 0.05;
 
 /// @param lattice  MPa    @param material  MPa, positive definite

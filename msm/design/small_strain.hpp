@@ -38,7 +38,7 @@ LinearFit linear_method(const CellMatrix& reference, const CellVertices& vertice
 CellStiffness moduli_method(double youngs_modulus, double shear_modulus, double split,
                             const CellVertices& vertices);
 
-/// That C11.
+/// C11 of the springs of moduli_method(), MPa.
 double c11_of_springs(double youngs_modulus, double shear_modulus);
 
 /// Springs and a cell volume term nearest to the isotropic elasticity with the given Lamé constants, which
