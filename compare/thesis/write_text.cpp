@@ -116,10 +116,11 @@ void write_advice_table(std::ostream& out, const std::vector<Advice>& advice) {
       "stiffnesses: springproof design --young E --poisson NU --method NAME.",
       "  ", "  ");
   if (differs)
-    write_paragraph(out,
-                    "A case of forces on nodes that names no design takes the one on the right: its rule asks "
-                    "for a large lattice that stays stable, not for this cube alone.",
-                    "  ", "  ");
+    write_paragraph(
+        out,
+        "A case of forces on nodes that names no design takes the one on the right: its rule asks "
+        "for a large lattice that stays stable, not for this cube alone.",
+        "  ", "  ");
 }
 
 } // namespace

@@ -146,7 +146,8 @@ TEST_CASE("the advice tells what a case takes that names no design") {
   by_default.design = "hybrid";
   by_default.is_recommended = false;
   results.advice.push_back(by_default);
-  CHECK_THAT(text_of(results), Contains("hybrid") && Contains("A case of forces on nodes that names no design"));
+  CHECK_THAT(text_of(results),
+             Contains("hybrid") && Contains("A case of forces on nodes that names no design"));
   results.advice = {by_default};
   results.advice.front().is_recommended = true;
   CHECK_THAT(text_of(results), Contains("the same") && !Contains("that names no design"));
