@@ -94,9 +94,10 @@ class Contact {
     ++revision_;
   }
   bool has_friction() const;
-  /// Whether no point passes through a tool between two states. A step that does leads to an equilibrium in
-  /// which the point is on another side of the tool. A point's straight way, seen from the tool, must not be
-  /// deeper inside than both a twentieth of a face's side and its own ends.
+  /// Whether no point passes through a tool between two states. A step in which one does leads to an
+  /// equilibrium in which the point is on another side of the tool.
+  /// A point passes where its straight way, seen from the tool, is deeper inside than a twentieth of a face's
+  /// side and than both its ends.
   bool is_way_open(const DisplacementAt& from, double load_from, const DisplacementAt& to,
                    double load_to) const;
   /// Counts the changes of multipliers.
