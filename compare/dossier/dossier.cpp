@@ -32,10 +32,14 @@ UncertainKey read_key(const std::string& text) {
   return {text.substr(0, equals), *deviation};
 }
 
+std::string setting_of(const UncertainKey& key, double value) {
+  return fmt::format("{}={:.17g}", key.key, value);
+}
+
 /// A case as it is solved with one key more or less: on the case's own mesh alone.
 Question changed(const FitCases& all, const FitState& state, const UncertainKey& key, double value,
                  const cases::Fem& resolved) {
-  cases::Scene scene = scene_of(all, state, {fmt::format("{}={:.17g}", key.key, value)});
+  cases::Scene scene = scene_of(all, state, {setting_of(key, value)});
   scene.definition.fem = resolved;
   scene.definition.fem.has_auto_formulation = scene.definition.fem.has_auto_accuracy = false;
   return {std::move(scene), {}};
@@ -49,6 +53,34 @@ double value_in_file(const FitCases& all, const FitState& state, const Uncertain
     throw cases::InputError(fmt::format(
         "--uncertain: {}: {} has no number there, must be a key with a number", key.key, state.file));
   return *value;
+}
+
+/// @throws InputError unless the case takes the key's value with one standard uncertainty less and more
+void check_both_ends(const FitCases& all, const FitState& state, const UncertainKey& key) {
+  const double value = value_in_file(all, state, key);
+  for (const double sign : {-1., 1.}) {
+    const double end = value + sign * key.deviation;
+    try {
+      scene_of(all, state, {setting_of(key, end)});
+    } catch (const cases::InputError& error) {
+      throw cases::InputError(fmt::format(
+          "--uncertain: {}: is {:g} with the standard uncertainty {:g}, and {} does not take {:g} "
+          "({}); give a smaller standard uncertainty",
+          key.key, value, key.deviation, state.file, end, error.what()));
+    }
+  }
+}
+
+/// @throws InputError for data that a dossier has no place for
+FitData read_measured(const DossierRequest& request) {
+  if (request.measured.empty()) return {};
+  FitData data = read_fit_data(cases::read_text_file(request.measured), request.measured, request.cases);
+  for (const FitState& state : data.states)
+    if (state.surface)
+      throw cases::InputError(request.measured +
+                              ": surface: is no datum of a dossier, must be a measure or a marker; fit takes "
+                              "surfaces, so leave the column out here");
+  return data;
 }
 
 std::vector<std::optional<double>> half_differences(const Question& less, const Answers& of_less,
@@ -140,15 +172,13 @@ bool Dossier::is_sound() const {
 Dossier make_dossier(const DossierRequest& request, const AnswerQuestions& answer,
                      const AnswerQuestions& answer_own) {
   Dossier dossier{request.context, request.cases.settings, {}, {}, {}, !request.uncertain.empty()};
-  const FitData data = request.measured.empty() ? FitData{}
-                                                : read_fit_data(cases::read_text_file(request.measured),
-                                                                request.measured, request.cases);
+  const FitData data = read_measured(request);
   const States states = states_of(request.cases, data);
   std::vector<Question> questions = questions_of(request, states);
   std::vector<UncertainKey> keys;
   for (const std::string& text : request.uncertain) {
     keys.push_back(read_key(text));
-    for (const FitState& state : states.all) value_in_file(request.cases, state, keys.back());
+    for (const FitState& state : states.all) check_both_ends(request.cases, state, keys.back());
   }
   dossier.code = verify_code(request.own_files, answer_own);
   std::vector<Answers> answers = answer(questions);

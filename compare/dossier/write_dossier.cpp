@@ -37,6 +37,20 @@ Json material_to_json(const cases::Material& material) {
       material);
 }
 
+/// A case's materials with what motion and time see of them.
+Json materials_to_json(const cases::Case& definition) {
+  const auto materials = cases::materials_of(definition);
+  Json all = Json::array();
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    const cases::MaterialDynamics& dynamics = cases::dynamics_of(definition, m);
+    all.push_back(material_to_json(materials[m]));
+    all.back().update(SPRINGPROOF_MEMBERS(dynamics, density, mass_damping, stiffness_damping));
+    for (const cases::PronyTerm& term : dynamics.prony)
+      all.back()["prony"].push_back(SPRINGPROOF_MEMBERS(term, g, k, tau));
+  }
+  return all;
+}
+
 std::string kind_of(const cases::Measure& measure) {
   return std::visit([](const auto& kind) { return std::string(kind.name); }, measure.kind);
 }
@@ -67,8 +81,9 @@ Json context_of_case(const StudiedCase& studied, const GateList& gates) {
           {"sha256", digest(text)},
           {"text", text},
           {"body", body_to_json(scene)},
-          {"materials", json_list(cases::materials_of(definition), material_to_json)},
+          {"materials", materials_to_json(definition)},
           {"loads", loads_to_json(scene)},
+          {"tools", tools_to_json(definition)},
           {"moves", definition.dynamics.has_value()},
           {"fem", fmt::format("{} {}", cases::name_of(answers.resolved.formulation),
                               cases::name_of(answers.resolved.element))},

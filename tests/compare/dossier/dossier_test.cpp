@@ -172,6 +172,38 @@ TEST_CASE("a dossier refuses keys and data without a meaning before anything is 
   refused("data.csv:1: \"middle\" is no column");
 }
 
+TEST_CASE("a dossier refuses an uncertain key with an end that a case does not take, before any solve") {
+  const TemporaryFolder folder;
+  DossierRequest request;
+  request.cases.files = {folder.write("block.toml", case_text::replaced(block, "= 0.3 }", "= 0.45 }"))};
+  const auto refused = [&](const std::string& key, const std::string& says) {
+    request.uncertain = {key};
+    CHECK_THROWS_WITH(make_dossier(request, never, never),
+                      Contains("--uncertain: material.") && Contains(says));
+  };
+  refused("material.poissons_ratio=0.06",
+          "material.poissons_ratio: is 0.45 with the standard uncertainty 0.06, and");
+  refused("material.poissons_ratio=0.06", "does not take 0.51 (");
+  refused("material.youngs_modulus=1", "does not take 0 ("); // the lower end
+  request.measured =
+      folder.write("data.csv", "material.poissons_ratio,end\n0.48,0.1\n"); // another state's end
+  refused("material.poissons_ratio=0.03", "material.poissons_ratio: is 0.48 with");
+  request.uncertain = {"material.poissons_ratio=0.01"};
+  CHECK_THROWS_WITH(make_dossier(request, never, never), Contains("nothing is to be solved")); // all is read
+}
+
+TEST_CASE("a dossier refuses a measured surface, which it would compare with nothing") {
+  const TemporaryFolder folder;
+  DossierRequest request;
+  request.cases.files = {folder.write("block.toml", block)};
+  folder.write("scan.obj", "v 0 0 10\nv 10 0 10\nv 0 10 10\nf 1 2 3\n");
+  for (const char* data : {"surface\nscan.obj\n", "end,surface\n0.1,scan.obj\n"}) {
+    request.measured = folder.write("data.csv", data);
+    CHECK_THROWS_WITH(make_dossier(request, never, never),
+                      Contains("data.csv: surface: is no datum of a dossier, must be a measure or a marker"));
+  }
+}
+
 TEST_CASE("both models converge in their order on a column under its weight", "[verification][long]") {
   const std::string folder = cases::data_folder("cases") + "/verification/";
   const AnswerQuestions answer = [](const std::vector<Question>& questions) {
