@@ -296,11 +296,13 @@ HeldOut predict_held_out(Fit& fit, const FitData& held, const Predict& predict, 
           prediction_error_percent(observations, found[1].values, all)};
 }
 
-/// Data of a state are held out together where there are states enough for it.
-std::vector<int> groups_of(const Layout& layout, std::size_t n_states) {
+/// Data of a state are held out together where there are more than two, its field or surface always.
+std::vector<int> groups_of(const Layout& layout, const FitData& data) {
   std::vector<int> groups;
-  for (std::size_t i = 0; i < layout.state_of.size(); ++i)
-    groups.push_back(static_cast<int>(n_states > 2 ? layout.state_of[i] : i));
+  for (std::size_t i = 0; i < layout.state_of.size(); ++i) {
+    const std::size_t state = layout.state_of[i], beside = data.data.size();
+    groups.push_back(static_cast<int>(data.states.size() > 2 ? state : i < beside ? i : beside + state));
+  }
   return groups;
 }
 
@@ -319,9 +321,7 @@ FitData limits_as_data(const FitCases& all, const AnswerQuestions& answer) {
       const cases::Case& definition = questions.back().scene.definition;
       cases::refuse_network(definition, "--to limit", "give data");
       if (definition.dynamics)
-        throw cases::InputError(file +
-                                ": --to limit: the case is a motion, which has no limit of its field; give "
-                                "data");
+        throw cases::InputError(file + ": --to limit: a motion has no limit of its field; give data");
       if (definition.fem.real_time)
         throw cases::InputError(definition.fem.where, "real_time must be left out with --to limit");
       data.states.back().markers.clear();
@@ -389,7 +389,7 @@ Fit fit_cases(const FitCases& all, const FitData& data, const std::string& data_
   add_rows(fit, fitted, layout, observations, fit.found.predicted);
   fit.held_out =
       held.states.empty()
-          ? cross_validate(problem, fit.found, groups_of(layout, fitted.states.size()))
+          ? cross_validate(problem, fit.found, groups_of(layout, fitted))
           : predict_held_out(fit, held, Model(all, held, parameters, side, answer, client), problem.start());
   fit.settings = values_of(parameters, fit.found.parameters, 10);
   fit.n_solves = problem.n_predicted() * fitted.states.size();

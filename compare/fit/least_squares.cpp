@@ -365,7 +365,7 @@ HeldOut cross_validate(const LeastSquaresProblem& problem, const LeastSquares& f
     for (const int group : group_of) is_used.push_back(group % n_folds != fold);
     const auto n_used = static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), true));
     if (n_used < problem.parameters().size() || n_folds < 2) {
-      held.reason = fmt::format("{} data in {} states are too few to hold any out for {} parameters: name "
+      held.reason = fmt::format("{} data in {} groups are too few to hold any out for {} parameters: name "
                                 "cases with --hold-out",
                                 group_of.size(), n_groups, problem.parameters().size());
       return held;

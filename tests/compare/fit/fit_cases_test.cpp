@@ -125,6 +125,17 @@ TEST_CASE("springs come nearer to refined finite elements by a fit, and other lo
   REQUIRE(fit.held_out.start_error_percent);
 }
 
+TEST_CASE("of one field nothing is held out: its other points tell what one of them is") {
+  const TemporaryFolder folder;
+  const FitCases cases{{folder.write("block.toml", block)}, {}, {}};
+  const Fit fit = fit_cases(cases, limits_as_data(cases, answer), "limit", {"material.youngs_modulus"},
+                            cases::Side::msm, answer);
+  REQUIRE(fit.found.has_values());
+  CHECK_FALSE(fit.held_out.error_percent);
+  CHECK_THAT(fit.held_out.reason, Catch::Contains("in 1 groups are too few to hold any out") &&
+                                      Catch::Contains("name cases with --hold-out"));
+}
+
 TEST_CASE("what cannot be fitted is refused with what to do") {
   const TemporaryFolder folder;
   const FitCases cases{{folder.write("bar.toml", bar)}, {}, {}};
