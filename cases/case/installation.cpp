@@ -18,20 +18,28 @@ namespace {
                           reason ? reason : "a shared object of the program");
 }
 
-/// The folder of the program or shared object that this function is in.
-const fs::path& own_folder() {
-  static const fs::path folder = [] {
+/// The program or shared object that this function is in.
+const fs::path& own_path() {
+  static const fs::path path = [] {
     Dl_info unused{};
     link_map* object = nullptr;
-    const auto* const here = reinterpret_cast<const void*>(&own_folder);
+    const auto* const here = reinterpret_cast<const void*>(&own_path);
     if (dladdr1(here, &unused, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) == 0) fail();
     const std::string name = object->l_name; // a program's is empty
-    return fs::canonical(name.empty() ? "/proc/self/exe" : name).parent_path();
+    return fs::canonical(name.empty() ? "/proc/self/exe" : name);
   }();
-  return folder;
+  return path;
+}
+
+fs::path own_folder() {
+  return own_path().parent_path();
 }
 
 } // namespace
+
+std::string own_file() {
+  return own_path().string();
+}
 
 std::string private_file(const std::string& name) {
   std::error_code none;

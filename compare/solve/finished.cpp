@@ -1,6 +1,7 @@
 #include "compare/solve/kept.hpp"
 
 #include "cases/case/input_file.hpp"
+#include "cases/case/installation.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/provenance/whole_file.hpp"
@@ -122,8 +123,12 @@ Answers kept_answers(const std::string& folder, const Question& question, FileNa
 } // namespace
 
 const std::string& this_program() {
-  static const std::string identity =
-      program_version() + " " + program_commit() + " " + digest(read_file("/proc/self/exe"));
+  static const std::string identity = [] {
+    std::string bytes = read_file(cases::own_file());
+    const std::string solvers = cases::private_file("springproof_solvers.so");
+    if (std::filesystem::exists(solvers)) bytes += read_file(solvers);
+    return program_version() + " " + program_commit() + " " + digest(bytes);
+  }();
   return identity;
 }
 
