@@ -151,7 +151,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
   }
 
   /// The contact with the scene's tools; null: there are none.
-  mechanics::Contact* contact() { return contact_ ? &*contact_ : nullptr; }
+  mechanics::Contact* contact() override { return contact_ ? &*contact_ : nullptr; }
 
  private:
   std::size_t n_dofs() const { return discretisation_.constraints.is_constrained.size(); }

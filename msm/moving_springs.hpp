@@ -175,7 +175,8 @@ class MovingSprings : public mechanics::DynamicProblem {
   /// @param entries  each node's places in a vector; -1: none
   void press_by(mechanics::Contact contact, std::vector<std::array<Eigen::Index, 3>> entries);
   /// What presses it; null: no tool.
-  mechanics::Contact* contact() { return contact_ ? &*contact_ : nullptr; }
+  mechanics::Contact* contact() override { return contact_ ? &*contact_ : nullptr; }
+  double largest_press() const override { return largest_press_; }
   std::vector<cases::ToolContact> tools_at(double time, const Vector& at) const override;
   void supports_at(double time, Vector& displacement) const override {
     springs_.move_supports(displacement, time);

@@ -98,7 +98,13 @@ Tool read_tool(Table& keys, const Case& definition) {
                     Number{fmt::format("a number from 0 to {:g}: Coulomb's coefficient", Tool::most_friction),
                            is_coefficient})
           .value_or(0);
-  if (keys.has("region")) tool.region = read_region_entry(keys.entry("region"), definition.body);
+  if (keys.has("region")) {
+    tool.region = read_region_entry(keys.entry("region"), definition.body);
+    if (tool.region->part)
+      keys.entry("region").refuse(
+          "the name of a region, or a table with plane: what a box has of the surface "
+          "changes with the mesh");
+  }
   keys.know({"region"});
   return tool;
 }

@@ -136,11 +136,15 @@ struct TimeError {
       msm; ///< absent where the model failed, was not asked for, or has no such value
 };
 
+/// Order in the step of a motion: that of the scheme; 1 where a load jumps on the way, or a tool may meet the
+/// body: the step in which it happens has the load of one side for a part of its length, which moves the
+/// jump by that part.
+int order_in_time(const cases::Scene& scene);
+
 struct TimeStudy {
-  /// Order of the scheme; 1 where a load jumps on the way: a step that meets the jump has one side's load for
-  /// a part of the step, which moves the jump by that part.
-  int order = 1;
-  bool has_jumps = false;
+  int order = 1;          ///< order_in_time()
+  bool has_jumps = false; ///< a load jumps on the way
+  bool has_tools = false;
   std::vector<TimeError> errors;       ///< one per measure
   std::vector<std::string> failures{}; ///< a sentence for each model that failed with half the step
 };

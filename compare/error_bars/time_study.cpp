@@ -67,6 +67,12 @@ void check_time_study(const cases::Scene& scene, const Request& request) {
   refuse_if(request.asks(cases::Side::fem) && definition.fem.real_time, definition.fem.where, "real_time");
 }
 
+int order_in_time(const cases::Scene& scene) {
+  return cases::jumps_on_the_way(scene) || !scene.definition.tools.empty()
+             ? 1
+             : mechanics::order_of(scene.definition.dynamics->scheme);
+}
+
 TimeStudy study_time(const cases::Scene& scene, const Answers& answers, const Request& request,
                      SolveFem solve_fem) {
   check_time_study(scene, request);
@@ -76,7 +82,8 @@ TimeStudy study_time(const cases::Scene& scene, const Answers& answers, const Re
   const Answers halves = solve(with_half_the_step(scene), single, solve_fem);
   TimeStudy study;
   study.has_jumps = cases::jumps_on_the_way(scene);
-  study.order = study.has_jumps ? 1 : mechanics::order_of(scene.definition.dynamics->scheme);
+  study.has_tools = !scene.definition.tools.empty();
+  study.order = order_in_time(scene);
   study.failures = failures_of(halves);
   for (const cases::Measure& measure : scene.definition.measures)
     study.errors.push_back({measure.name, unit_of(measure),
@@ -91,7 +98,9 @@ void write_time_study_text(std::ostream& out, const TimeStudy& study) {
                                            : std::string("-");
   };
   print(out, "  {:<24} {:>14} {:>14}{}\n", "error of the steps, %", "fem", "msm",
-        study.has_jumps ? "   (order 1: a load jumps on the way)" : "");
+        study.has_jumps   ? "   (order 1: a load jumps on the way)"
+        : study.has_tools ? "   (order 1: a tool meets the body)"
+                          : "");
   for (const TimeError& error : study.errors)
     print(out, "  {:<24} {:>14} {:>14}\n", error.measure, text(error.fem), text(error.msm));
   for (const std::string& failure : study.failures) print(out, "  FAILED: {}\n", failure);

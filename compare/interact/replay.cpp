@@ -54,6 +54,10 @@ cases::Scene with_recording(cases::Scene scene, const std::string& text, const s
   const auto& dynamics = scene.definition.dynamics;
   if (!dynamics) throw cases::InputError(scene.definition.file + ": has no [dynamics] to replay pulls in");
   if (is_of_tools(text)) return with_tools_led(std::move(scene), text, path);
+  for (cases::Tool& tool : scene.definition.tools) { // they have stayed where they were
+    const Vector3d place = tool.place(0);
+    tool.path = {{0, place.x(), place.y(), place.z()}};
+  }
   const std::vector<Hold> holds = read_recording(text, path, dynamics->step, dynamics->end);
   const mechanics::EmbeddedSurface surface = embedded_surface(scene);
   // A load of the case on a plane of symmetry is the whole body's; a pull is of the part that was pulled.

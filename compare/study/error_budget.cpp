@@ -1,11 +1,11 @@
 #include "compare/study/error_budget.hpp"
 
 #include "cases/case/elements.hpp"
+#include "compare/error_bars/convergence.hpp"
 #include "compare/provenance/machine.hpp"
 #include "compare/solve/estimate.hpp"
 #include "compare/solve/springs.hpp"
 #include "compare/study/measured_parts.hpp"
-#include "mechanics/dynamics/scheme.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -169,7 +169,8 @@ class Budget {
  public:
   Budget(const cases::Measure& measure, const Comparison& comparison)
       : measure_(measure), scene_(comparison.scene), answers_(comparison.answers),
-        parts_(measure, comparison.scene), order_(order_in_time(comparison.scene)) {}
+        parts_(measure, comparison.scene),
+        order_(comparison.scene.definition.dynamics ? order_in_time(comparison.scene) : 1) {}
 
   /// Finds the truth, the finite elements' limit in mesh and step.
   /// @return why there is none; empty when there is one
@@ -267,11 +268,6 @@ class Budget {
   int order_;
   Known limit_;
   Field fem_, fem_step_, truth_, whole_;
-
-  static int order_in_time(const cases::Scene& scene) {
-    const auto& dynamics = scene.definition.dynamics;
-    return dynamics && !cases::jumps_on_the_way(scene) ? mechanics::order_of(dynamics->scheme) : 1;
-  }
 
   Field zero() const { return Field(fem_.size(), Vector3d::Zero()); }
 

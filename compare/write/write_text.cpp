@@ -316,6 +316,34 @@ bool is_norm(const MeasuredValue& measured, const cases::Case& definition) {
                  : measured.name == cases::surface_measure;
 }
 
+namespace {
+
+/// Whether a tool touches the body in a solution, at any time of a motion.
+bool touches(const cases::Solution& solution, std::size_t tool, std::size_t n_tools) {
+  const auto& in_time = solution.trajectory ? solution.trajectory->tools : solution.tools;
+  for (std::size_t i = tool; i < in_time.size(); i += n_tools)
+    if (!in_time[i].force.isZero(0)) return true;
+  return in_time.empty(); // it is not known
+}
+
+std::vector<std::string> tools_without_touch(const Comparison& comparison) {
+  const std::vector<cases::Tool>& tools = comparison.scene.definition.tools;
+  std::vector<std::string> all;
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    const auto misses = [&](const Answer& side) {
+      return side.converged() && !touches(side.solution, tool, tools.size());
+    };
+    if (misses(comparison.answers.fem) || misses(comparison.answers.msm))
+      all.push_back(
+          fmt::format("the tool '{}' touches nothing: look at its place, its displacement and, if it is "
+                      "of a file, its scale",
+                      tools[tool].name));
+  }
+  return all;
+}
+
+} // namespace
+
 std::vector<std::string> warnings_of(const Comparison& comparison) {
   std::vector<std::string> all = cases::warnings_of_loads(comparison.scene);
   const auto add = [&all](const std::vector<std::string>& more) {
@@ -324,6 +352,7 @@ std::vector<std::string> warnings_of(const Comparison& comparison) {
   add(comparison.scene.remarks);
   add(comparison.answers.msm_warnings);
   if (const auto& design = comparison.answers.design) add(design->warnings);
+  add(tools_without_touch(comparison));
   return all;
 }
 

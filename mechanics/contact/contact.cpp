@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 #include <utility>
 
@@ -17,8 +16,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int most_augmentations = 50;
-constexpr double allowed_misfit = 1e-3;   ///< relative to the indentation
 constexpr double allowed_friction = 1e-6; ///< relative to the sum of the points' bounds
 constexpr double allowed_passage = 0.05; ///< depth of a point's way through a tool, relative to a face's side
 
@@ -141,14 +138,10 @@ double Contact::energy(const DisplacementAt& displacement, double load_factor) c
 }
 
 Contact::Misfit Contact::misfit(const DisplacementAt& displacement, double load_factor) const {
+  constexpr double rounding = 1e-13; // of places, relative to their distance from 0
   Misfit found;
-  double indentation = 0, way = 0; // mm: how deep the body at rest is met; how far points are pressed
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (const ToolSide& side : sides_) boxes.push_back(box_around(side.tool.shape));
+  std::vector<double> change(sides_.size()), force(sides_.size()); // N, of each tool
   for_each_point(displacement, load_factor, [&](const Touch& touch) {
-    const Vector3d rest = touch.point.rest - sides_[touch.side].tool.place(load_factor);
-    if (boxes[touch.side].contains(rest))
-      indentation = std::max(indentation, -distances_[touch.side](rest).value);
     if (!grips_[touch.side].empty()) {
       const Grip next = renewed(touch, Held::is_augmented);
       found.friction +=
@@ -156,12 +149,17 @@ Contact::Misfit Contact::misfit(const DisplacementAt& displacement, double load_
       found.allowed_friction += allowed_friction * next.bound;
     }
     if (!(touch.pressure > 0)) return;
-    way = std::max(way, displacement(touch.point.node).norm());
-    if (!(std::abs(touch.distance.value) > found.largest)) return;
-    found.largest = std::abs(touch.distance.value);
-    found.worst = touch.side;
+    force[touch.side] += touch.pressure * touch.point.area;
+    const double apart = std::abs(touch.distance.value);
+    if (apart > rounding * (touch.point.rest.norm() + touch.from_tool.norm()))
+      change[touch.side] += touch.point.stiffness * apart;
   });
-  found.allowed = allowed_misfit * (indentation > 0 ? indentation : way);
+  for (std::size_t side = 0; side < sides_.size(); ++side)
+    if (change[side] * found.force >= found.change * force[side] && change[side] > 0) {
+      found.change = change[side];
+      found.force = force[side];
+      found.worst = side;
+    }
   return found;
 }
 
@@ -219,6 +217,21 @@ void Contact::forget() {
   ++revision_;
 }
 
+void Contact::check_start() const {
+  for_each_point(
+      [](int) -> Vector3d { return Vector3d::Zero(); }, 0,
+      [&](const Touch& touch) {
+        const double depth = -touch.distance.value;
+        if (!(depth > allowed_passage * std::sqrt(touch.point.area))) return;
+        const cases::Tool& tool = sides_[touch.side].tool;
+        cases::refuse(
+            tool.where,
+            "is {:.3g} mm inside the body at time 0, must be outside: a motion starts with the body at "
+            "rest; move the tool away, and let its history or path bring it to the body",
+            depth);
+      });
+}
+
 bool Contact::has_friction() const {
   return std::any_of(grips_.begin(), grips_.end(), [](const auto& of_tool) { return !of_tool.empty(); });
 }
@@ -249,6 +262,9 @@ bool Contact::is_way_open(const DisplacementAt& from, double load_from, const Di
 std::vector<cases::ToolContact> Contact::found(const DisplacementAt& displacement, double load_factor,
                                                const DisplacementAt& unbalanced) const {
   std::vector<cases::ToolContact> all(sides_.size());
+  std::map<int, int> n_tools; // that act on a node, and share what it leaves
+  if (unbalanced && sides_.size() > 1)
+    for_each_pressed(displacement, load_factor, [&](const Pressed& pressed) { ++n_tools[pressed.node]; });
   for_each_point(displacement, load_factor, [&](const Touch& touch) {
     cases::ToolContact& here = all[touch.side];
     here.penetration = std::max(here.penetration, -touch.distance.value);
@@ -257,7 +273,8 @@ std::vector<cases::ToolContact> Contact::found(const DisplacementAt& displacemen
     const Vector3d& normal = touch.distance.normal;
     Vector3d force = touch.pressure * touch.point.area * normal + rubbed;
     if (unbalanced) {
-      const Vector3d left = unbalanced(touch.point.node);
+      const Vector3d left =
+          unbalanced(touch.point.node) / (sides_.size() > 1 ? n_tools[touch.point.node] : 1);
       force -= grips_[touch.side].empty() ? Vector3d(normal.dot(left) * normal) : left;
     }
     here.force += force;
@@ -297,101 +314,6 @@ std::vector<ToolSide> tool_sides(const cases::Scene& scene) {
     for (const auto& [node, point] : of_node) side.points.push_back(point);
   }
   return sides;
-}
-
-namespace {
-
-void add_work(Equilibrium& to, const Equilibrium& of) {
-  to.load_steps += of.load_steps;
-  to.newton_iterations += of.newton_iterations;
-  to.convexified_steps += of.convexified_steps;
-  to.escapes += of.escapes;
-  to.work.linear_iterations += of.work.linear_iterations;
-  to.work.factorisations += of.work.factorisations;
-  to.work.force_evaluations += of.work.force_evaluations;
-}
-
-[[noreturn]] void give_up_contact(const Contact& contact, const Contact::Misfit& misfit, int n,
-                                  const Equilibrium& found, const std::string& name) {
-  cases::Solution so_far = to_solution(found);
-  so_far.outcome = cases::Outcome::unknown;
-  if (misfit.largest <= misfit.allowed)
-    throw cases::SolveError(
-        fmt::format("{}: the friction of the tools does not settle: after {} "
-                    "augmentations its forces still change by {:.3g} N, more than the "
-                    "{:.3g} N that are allowed; take more load steps or a smaller friction",
-                    name, n, misfit.friction, misfit.allowed_friction),
-        std::move(so_far));
-  throw cases::SolveError(
-      fmt::format("{}: the contact with the tool '{}' does not settle: after {} augmentations its surface "
-                  "and the body's differ by {:.3g} mm, more than the {:.3g} mm that are allowed",
-                  name, contact.sides()[misfit.worst].tool.name, n, misfit.largest, misfit.allowed),
-      std::move(so_far));
-}
-
-/// The equilibrium at the settings' last load, with multipliers that have settled there.
-Equilibrium find_settled_equilibrium(NonlinearProblem& problem, Contact& contact,
-                                     const std::function<DisplacementAt(const Vector&)>& displacement_of,
-                                     const Vector& start, const std::string& name,
-                                     const EquilibriumSettings& settings) {
-  const Contact before = contact;
-  Equilibrium found = find_equilibrium(problem, start, name, settings);
-  EquilibriumSettings again = settings;
-  again.from = settings.to;
-  again.first_load_step = again.largest_load_step = 1;
-  again.guess.reset();
-  for (int n = 0;; ++n) {
-    const auto misfit = contact.misfit(displacement_of(found.state), settings.to);
-    if (misfit.is_small()) return found;
-    if (n == most_augmentations) give_up_contact(contact, misfit, n, found, name);
-    contact.augment(displacement_of(found.state), settings.to);
-    Equilibrium next;
-    try {
-      next = find_equilibrium(problem, found.state, name, again);
-    } catch (const cases::SolveError&) {
-      // Friction that sets in all at once is far to go. From the step's start, where its multipliers are in
-      // equilibrium, it grows with the tool's way, which can be divided.
-      if (!contact.has_friction()) throw;
-      contact.take_pressures_of(before);
-      next = find_equilibrium(problem, start, name, settings);
-    }
-    add_work(next, found);
-    found = std::move(next);
-  }
-}
-
-} // namespace
-
-Equilibrium find_equilibrium_in_contact(NonlinearProblem& problem, Contact* contact,
-                                        const std::function<DisplacementAt(const Vector&)>& displacement_of,
-                                        const Vector& start, const std::string& name,
-                                        const EquilibriumSettings& settings) {
-  if (!contact) return find_equilibrium(problem, start, name, settings);
-  EquilibriumSettings part = settings; // a load step's with friction, else the whole way's
-  part.is_way_open = [&](const Vector& from, double load_from, const Vector& to, double load_to) {
-    return contact->is_way_open(displacement_of(from), load_from, displacement_of(to), load_to);
-  };
-  if (!contact->has_friction())
-    return find_settled_equilibrium(problem, *contact, displacement_of, start, name, part);
-  const int n_steps = std::max(1, static_cast<int>(std::ceil(1 / settings.largest_load_step - 1e-9)));
-  const auto load = [&](int step) {
-    return step == n_steps ? settings.to : settings.from + step * (settings.to - settings.from) / n_steps;
-  };
-  // A step may be divided where Newton's method fails.
-  part.first_load_step = part.largest_load_step = 1;
-  part.smallest_load_step = std::min(n_steps * settings.smallest_load_step, 1. / 16);
-  part.guess.reset();
-  std::optional<Equilibrium> found;
-  for (int step = 1; step <= n_steps; ++step) {
-    part.from = load(step - 1);
-    part.to = load(step);
-    Equilibrium next = find_settled_equilibrium(problem, *contact, displacement_of,
-                                                found ? found->state : start, name, part);
-    if (found) add_work(next, *found);
-    found = std::move(next);
-    contact->end_step(displacement_of(found->state), part.to);
-  }
-  return std::move(*found);
 }
 
 } // namespace springproof::mechanics

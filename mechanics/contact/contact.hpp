@@ -67,15 +67,16 @@ class Contact {
   /// Potential of the pressures, and of the friction with its bounds held, N mm.
   double energy(const DisplacementAt& displacement, double load_factor) const;
 
-  /// How far pressed points are from the tool's surface, and friction from its law.
+  /// How far pressures and friction are from their laws.
   struct Misfit {
-    double largest = 0;          ///< mm, of a pressed point, to either side
-    double allowed = 0;          ///< mm
-    std::size_t worst = 0;       ///< the tool's index
+    double change = 0;           ///< N: what augment() would change of a tool's pressures, summed over points
+    double force = 0;            ///< N: the sum of its pressures; of the tool that changes most for it
+    std::size_t worst = 0;       ///< that tool's index
     double friction = 0;         ///< N: the sum of what augment() would change of the points' friction
     double allowed_friction = 0; ///< N
+    bool is_change_small() const { return change <= 1e-3 * force; }
     bool is_friction_small() const { return friction <= allowed_friction; }
-    bool is_small() const { return largest <= allowed && is_friction_small(); }
+    bool is_small() const { return is_change_small() && is_friction_small(); }
   };
   Misfit misfit(const DisplacementAt& displacement, double load_factor) const;
 
@@ -94,6 +95,9 @@ class Contact {
     ++revision_;
   }
   bool has_friction() const;
+  /// @throws cases::InputError when a tool is deeper inside the body at rest, at time 0, than a twentieth of a
+  /// face's side
+  void check_start() const;
   /// Whether no point passes through a tool between two states. A step in which one does leads to an
   /// equilibrium in which the point is on another side of the tool.
   /// A point passes where its straight way, seen from the tool, is deeper inside than a twentieth of a face's

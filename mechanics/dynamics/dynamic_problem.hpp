@@ -10,6 +10,8 @@
 
 namespace springproof::mechanics {
 
+class Contact;
+
 /// A load of a motion: forces on some entries of a vector, and how much of them acts when. A replay has
 /// hundreds, each of a few nodes.
 class LoadInTime {
@@ -65,6 +67,11 @@ class DynamicProblem : public NonlinearProblem {
   /// Writes where supports are at a time to the constrained entries of a displacement, mm.
   virtual void supports_at(double /*time*/, Vector& /*displacement*/) const {}
 
+  /// The contact with tools; null: there are none.
+  virtual Contact* contact() { return nullptr; }
+  /// Norm of what tools do to nodes at the end of the step where it was largest so far, N. Residuals are
+  /// relative to it too.
+  virtual double largest_press() const { return 0; }
   /// What the tools do to the body in a state at a time (s), without the forces on single nodes.
   virtual std::vector<cases::ToolContact> tools_at(double /*time*/, const Vector& /*displacement*/) const {
     return {};

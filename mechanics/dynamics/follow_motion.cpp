@@ -76,7 +76,11 @@ FollowedMotion follow_motion(const cases::Scene& scene, const BodyInTime& body, 
   followed.work.load_reached = 1;
   followed.work.n_unknowns = body.problem.n_unknowns();
   followed.work.work = body.problem.work(); // excludes what follows
+  Contact* const contact = body.problem.contact();
+  const std::optional<Contact> at_end = contact ? std::optional(*contact) : std::nullopt;
+  if (contact) contact->forget(); // the vibration is that of the start, where no friction has set in
   followed.trajectory.slowest = slowest_vibration(body.problem, begin, dynamics.end);
+  if (contact) *contact = *at_end;
   return followed;
 }
 

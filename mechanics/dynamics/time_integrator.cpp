@@ -1,6 +1,7 @@
 #include "mechanics/dynamics/time_integrator.hpp"
 
 #include "cases/case/error.hpp"
+#include "mechanics/contact/contact.hpp"
 #include "mechanics/grid/krylov.hpp"
 
 #include <algorithm>
@@ -61,6 +62,7 @@ double TimeIntegrator::kinetic_energy() {
 
 /// Finds the forces at the start and the acceleration that they give: M a = F - C v - f_int(u).
 void TimeIntegrator::start() {
+  if (const Contact* contact = problem_.contact()) contact->check_start();
   problem_.begin_motion(now_.displacement);
   problem_.external_force(now_.time, force_);
   scale_ = norm(force_);
@@ -101,12 +103,14 @@ bool TimeIntegrator::try_step(double to, double target) {
   StepTerms terms{c.mass, c.damping, now_.displacement, force_, supports_, scale_};
   terms.duration = c.place * step;
   terms.time = time;
-  if (!has_loads_) { // velocity, or supports that move, drive the body
+  if (!has_loads_ && !(problem_.largest_press() > 0)) { // velocity, supports or a tool drive the body
     predict(c, to, Guess::displacement_stays);
     terms.scale = 1;
     problem_.set_step(terms);
     problem_.residual(place_, 0, Expect::residual, residual_);
-    scale_ = terms.scale = std::max(scale_, norm(residual_));
+    terms.scale = std::max(scale_, norm(residual_));
+    // Where a tool moves, this is the penalty times its way, which the body never bears.
+    if (!problem_.contact()) scale_ = terms.scale;
   }
   terms.enough_linear_iterations = settings_.enough_linear_iterations;
   terms.in_single_precision = settings_.in_single_precision;

@@ -57,32 +57,14 @@ class DirectSystem : public SpringSystem {
     return Mode{mode->eigenvalue, with_supports(mode->shape)};
   }
 
-  /// A mechanism's lowest pivot is lost in rounding. So may be that of a slender or nearly incompressible
-  /// body: there the answer to a random load, a huge motion, tells by what it stores.
   mechanics::RestState rest_state() override {
-    using mechanics::RestState;
-    const Vector rest = Vector::Zero(load_.size());
-    const bool is_definite = factorise(rest, Clamp::no, 0);
-    const double largest = diagonal_.cwiseAbs().maxCoeff();
-    if (!(largest > no_stiffness)) return RestState::mechanism;
-    if (is_definite && factorisation_.smallest_pivot_ratio(diagonal_) > rounding) return RestState::sound;
-    if (is_definite && has_negative_springs()) return RestState::mechanism; // what a motion stores may cancel
-    if (is_definite) {
-      const Vector force = with_supports(random_force(3));
-      Vector motion;
-      const bool moves = solve(rest, force, 0, Clamp::no, 0, motion);
-      const double stored = moves ? small_motion_energy(problem_.lattice, to_points(problem_, motion)) : 0;
-      return stored > no_energy * largest * motion.squaredNorm() ? RestState::sound : RestState::mechanism;
-    }
-    // Positive semidefinite or indefinite? A shift that rounding could explain tells them apart.
-    const double shift = rounding * largest;
-    if (factorise(rest, Clamp::no, shift)) return RestState::mechanism;
-    if (has_negative_terms()) return RestState::unstable;
-    // Springs that are pressed together push aside what no spring holds, and what some hold if they push
-    // more.
-    const bool is_held =
-        factorise(rest, Clamp::yes, 0) && factorisation_.smallest_pivot_ratio(diagonal_) > rounding;
-    return is_held ? RestState::unstable : RestState::mechanism;
+    if (!problem_.contact) return rest_state_of_springs();
+    is_without_tools_ = true; // they neither hold the lattice nor make it unstable
+    factorised_.reset();
+    const mechanics::RestState found = rest_state_of_springs();
+    is_without_tools_ = false;
+    factorised_.reset();
+    return found;
   }
 
   std::string cause_of_instability() const override {
@@ -132,6 +114,35 @@ class DirectSystem : public SpringSystem {
   double load_factor_ = 0;                       ///< the last residual's, where the tools are
   std::optional<std::pair<double, int>> seen_{}; ///< load factor and multipliers of what is factorised
   Tangent::Matrix in_contact_;                   ///< the tangent with theirs
+  bool is_without_tools_ = false;                ///< the tangent is that of the springs alone
+
+  /// A mechanism's lowest pivot is lost in rounding. So may be that of a slender or nearly incompressible
+  /// body: there the answer to a random load, a huge motion, tells by what it stores.
+  mechanics::RestState rest_state_of_springs() {
+    using mechanics::RestState;
+    const Vector rest = Vector::Zero(load_.size());
+    const bool is_definite = factorise(rest, Clamp::no, 0);
+    const double largest = diagonal_.cwiseAbs().maxCoeff();
+    if (!(largest > no_stiffness)) return RestState::mechanism;
+    if (is_definite && factorisation_.smallest_pivot_ratio(diagonal_) > rounding) return RestState::sound;
+    if (is_definite && has_negative_springs()) return RestState::mechanism; // what a motion stores may cancel
+    if (is_definite) {
+      const Vector force = with_supports(random_force(3));
+      Vector motion;
+      const bool moves = solve(rest, force, 0, Clamp::no, 0, motion);
+      const double stored = moves ? small_motion_energy(problem_.lattice, to_points(problem_, motion)) : 0;
+      return stored > no_energy * largest * motion.squaredNorm() ? RestState::sound : RestState::mechanism;
+    }
+    // Positive semidefinite or indefinite? A shift that rounding could explain tells them apart.
+    const double shift = rounding * largest;
+    if (factorise(rest, Clamp::no, shift)) return RestState::mechanism;
+    if (has_negative_terms()) return RestState::unstable;
+    // Springs that are pressed together push aside what no spring holds, and what some hold if they push
+    // more.
+    const bool is_held =
+        factorise(rest, Clamp::yes, 0) && factorisation_.smallest_pivot_ratio(diagonal_) > rounding;
+    return is_held ? RestState::unstable : RestState::mechanism;
+  }
 
   mechanics::DisplacementAt displacements(const Vector& displacement) const {
     return [points = to_points(problem_, displacement)](int node) { return points[cases::index(node)]; };
@@ -225,7 +236,7 @@ class DirectSystem : public SpringSystem {
       factorisation_.analyse(tangent_->assemble(problem_.lattice.rest, Clamp::no));
     }
     matrix_ = &tangent_->assemble(positions(problem_, displacement), clamp);
-    if (problem_.contact) matrix_ = &with_contact(displacement, clamp);
+    if (problem_.contact && !is_without_tools_) matrix_ = &with_contact(displacement, clamp);
     diagonal_ = matrix_->diagonal();
     ++work_.factorisations;
     factorised_.reset();

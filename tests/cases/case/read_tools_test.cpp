@@ -98,6 +98,8 @@ TEST_CASE("a mistake in a tool is refused where it stands, with what is allowed"
   refused("'sphere'", of_file("case.toml"), line_of("shape = 'sphere'") + 1, "tool[0].file",
           {"a closed surface, .stl, .obj, .ply or .vtp"});
   refused("radius = 4", "radius = 0", line_of("radius = 4"), "tool[0].radius", {"a number above 0 (mm)"});
+  refused("radius = 4", "radius = 4\nregion = { box = [[0, 0, 0], [5, 5, 5]] }", line_of("radius = 4") + 1,
+          "tool[0].region", {"the name of a region, or a table with plane"});
   for (const char* friction : {"-0.1", "5.1", "nan", "'rough'"})
     refused("radius = 4", std::string("radius = 4\nfriction = ") + friction, line_of("radius = 4") + 1,
             "tool[0].friction", {"a number from 0 to 5: Coulomb's coefficient"});

@@ -114,6 +114,16 @@ TEST_CASE("a tool that a hand moves presses the springs, and both models replay 
   }
 }
 
+TEST_CASE("tools stay where they are in a replay of pulls, as they did beside them") {
+  cases::Scene scene = block_and_ball("[3, 3, 2]");
+  scene.definition.tools.front().displacement = {0, 0, -5};
+  scene.definition.tools.front().history.points = {{0, 0}, {0.4, 1}};
+  const cases::Scene replayed =
+      with_recording(scene, "step,time,x,y,z,radius,fx,fy,fz\n2,0.04,18,18,24,20,0,0,1e-6\n", "pulls.csv");
+  CHECK(scene.definition.tools.front().place(0.4).z() == Approx(30));
+  CHECK(replayed.definition.tools.front().place(0.4) == Vector3d(18, 18, 35));
+}
+
 TEST_CASE("a tool goes no further in a step than a fiftieth of the body, and back to where it begins") {
   const cases::Scene scene = block_and_ball("[3, 3, 2]");
   PulledBody body(scene, {50, 1e-4, 1});

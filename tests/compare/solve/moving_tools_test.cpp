@@ -7,6 +7,7 @@
 #include "compare/solve/springs.hpp"
 #include "tests/support/case_text.hpp"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -82,6 +83,35 @@ TEST_CASE("a plane that presses slowly does in the end what it does in statics",
     CHECK(in_time.solution.tools[0].area == Approx(16));
     CHECK(in_time.solution.tools[0].penetration < 0.01 * 0.3);
   }
+}
+
+TEST_CASE("a motion is refused whose tool begins inside the body") {
+  const auto begin_at = [](double z) {
+    return cases::make_scene(
+        case_text::read_text(block("[4, 4, 3]", "[4, 4, 3]", rollers,
+                                   fmt::format("shape = 'sphere'\ncentre = [0, 0, {}]\nradius = 3\n", z),
+                                   "damping scheme = 'implicit_euler'\nstep = 0.1\nend = 0.2\n")));
+  };
+  std::optional<msm::DesignResult> design;
+  const auto is_inside = Catch::Contains("is 0.2 mm inside the body at time 0, must be outside");
+  CHECK_THROWS_WITH(solve_springs(begin_at(5.8), 1, design), is_inside);
+  CHECK_THROWS_WITH(solve_fem_as_given(begin_at(5.8)), is_inside);
+  CHECK(solve_springs(begin_at(6), 1, design).converged());
+}
+
+TEST_CASE("the slowest vibration is that of the start, before friction holds a surface") {
+  const auto slowest = [](double friction) {
+    const Solved moved = solved(block("[4, 4, 3]", "[4, 4, 3]", "[[fixed]]\nregion = 'z-'\n",
+                                      fmt::format("shape = 'plane'\nnormal = [0, 0, -1]\nfriction = {}\n"
+                                                  "path = [[0, 0, 0, 3.1], [0.1, 0, 0, 2.9]]\n",
+                                                  friction),
+                                      "damping scheme = 'implicit_euler'\nstep = 0.02\nend = 0.1\n"));
+    return std::array{moved.fem.solution.trajectory->slowest->omega,
+                      moved.msm.solution.trajectory->slowest->omega};
+  };
+  const auto without = slowest(0), with = slowest(0.5);
+  CHECK(with[0] == Approx(without[0]).epsilon(1e-2));
+  CHECK(with[1] == Approx(without[1]).epsilon(1e-2));
 }
 
 TEST_CASE("a punch that comes in one step presses what it does in short ones", "[verification]") {

@@ -7,10 +7,12 @@
 #include "compare/modes/modes.hpp"
 #include "compare/peers/getfem.hpp"
 #include "compare/solve/solve.hpp"
+#include "compare/write/write.hpp"
 #include "msm/model.hpp"
 #include "tests/support/case_text.hpp"
 #include "tests/support/scene_in_tetrahedra.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -172,6 +174,56 @@ TEST_CASE("a body that a tool is moved against is pressed as by a tool that is m
   const Comparison up = compared(text), down = compared(block(plane(0.3)) + of_tool);
   CHECK(value(up, "force").fem == Approx(value(down, "force").fem).epsilon(2e-3));
   CHECK(value(up, "force").msm == Approx(value(down, "force").msm).epsilon(2e-3));
+}
+
+TEST_CASE("a tool that begins inside a body presses it as one that comes from outside", "[verification]") {
+  const auto pressed = [](double from, double down) {
+    return compared(
+        block(fmt::format("[[tool]]\nname = 'tool'\nshape = 'sphere'\ncentre = [0, 0, {}]\nradius = "
+                          "3\ndisplacement = [0, 0, {}]\n",
+                          from, -down)) +
+        of_tool);
+  };
+  const Comparison inside = pressed(5.8, 0.2), outside = pressed(6, 0.4);
+  CHECK(value(inside, "force").fem == Approx(value(outside, "force").fem).epsilon(1e-3));
+  CHECK(value(inside, "force").msm == Approx(value(outside, "force").msm).epsilon(1e-3));
+}
+
+TEST_CASE("how far a body is carried with its tool does not change what the tool does", "[verification]") {
+  const auto pressed = [](double carried) {
+    std::string text =
+        block(fmt::format("[[moved]]\nregion = 'z-'\ncomponents = ['z']\ndisplacement = [0, 0, {}]\n"
+                          "[[tool]]\nname = 'tool'\nshape = 'sphere'\ncentre = [0, 0, 6]\nradius = 3\n"
+                          "displacement = [0, 0, {}]\n",
+                          -carried, -carried - 0.05)) +
+        of_tool;
+    return compared(case_text::replaced(text, "[[fixed]]\nregion = 'z-'\ncomponents = ['z']\n", ""));
+  };
+  const Comparison here = pressed(0), far = pressed(20);
+  CHECK(value(far, "force").fem == Approx(value(here, "force").fem).epsilon(2e-3));
+  CHECK(value(far, "force").msm == Approx(value(here, "force").msm).epsilon(2e-3));
+  CHECK(value(far, "depth").fem < 0.01 * 0.05);
+  CHECK(value(far, "depth").msm < 0.01 * 0.05);
+}
+
+TEST_CASE("a tool that only just touches a body settles", "[verification]") {
+  std::string text = block("[[load]]\nregion = 'x+'\nkind = 'traction'\nvalue = [-0.0001, 0, 0]\n"
+                           "[[tool]]\nname = 'tool'\nshape = 'sphere'\ncentre = [2, 2, 3.1]\nradius = 0.1\n");
+  compared(text + of_tool);
+}
+
+TEST_CASE("a tool that touches nothing is told of, and one that does is not") {
+  const auto warns = [](double from) {
+    const auto all = warnings_of(
+        compared(block(fmt::format("[[tool]]\nname = 'tool'\nshape = 'sphere'\ncentre = [0, 0, {}]\nradius = "
+                                   "3\ndisplacement = [0, 0, -0.2]\n",
+                                   from))));
+    return std::any_of(all.begin(), all.end(), [](const std::string& warning) {
+      return warning.find("the tool 'tool' touches nothing") != std::string::npos;
+    });
+  };
+  CHECK(warns(60));
+  CHECK_FALSE(warns(6));
 }
 
 TEST_CASE("what knows no tools refuses a case with one, or says why it is skipped") {

@@ -166,6 +166,24 @@ TEST_CASE("a multiplier takes the pressure's value, and a point that leaves is p
   CHECK(contact.found(below, 1).front().force.norm() < 1e-9 * std::abs(force));
 }
 
+TEST_CASE("two tools on a node share what a step has left there") {
+  const cases::Tool tool =
+      quarter_block::pressed_down(cases::tools::Plane{-Vector3d::UnitZ()}, {0, 0, 2}, 0.1);
+  cases::Tool other = tool;
+  other.name = "other";
+  const auto at_rest = [](int) -> Vector3d { return Vector3d::Zero(); };
+  const auto left = [](int) -> Vector3d { return {0, 0, 1e-3}; };
+  const auto force = [&](const std::vector<cases::Tool>& tools, const mechanics::DisplacementAt& unbalanced) {
+    double sum = 0;
+    for (const auto& found : Contact(mechanics::tool_sides(pressed_box(tools))).found(at_rest, 1, unbalanced))
+      sum += found.force.z();
+    return sum;
+  };
+  const double corrected = force({tool}, left) - force({tool}, {});
+  CHECK(corrected < 0);
+  CHECK(force({tool, other}, left) - force({tool, other}, {}) == Approx(corrected));
+}
+
 TEST_CASE("a way is open outside a tool and into its surface, not through an edge or from side to side") {
   const auto is_open = [](const cases::tools::Kind& shape, const Vector3d& from, const Vector3d& to) {
     const mechanics::SurfacePoint point{0, from, 1, 1, Vector3d::UnitZ()}; // on a face with sides of 1 mm
