@@ -204,7 +204,7 @@ struct ZeroOfValues {
     return relative_zero * size() * force_of(kind.tool);
   }
   double operator()(const measures::ContactArea&) const { return relative_zero * size() * size(); }
-  double operator()(const measures::Penetration&) const { return length(); }
+  double operator()(const measures::Penetration&) const { return 1e-4 / relative_zero * length(); } // settled
   double operator()(const measures::Volume&) const { return 0; }       // none is zero
   double operator()(const measures::StrainEnergy&) const { return 0; } // nor that of what is deformed
 
