@@ -87,10 +87,12 @@ TEST_CASE("a plane that presses slowly does in the end what it does in statics",
 
 TEST_CASE("a motion is refused whose tool begins inside the body") {
   const auto begin_at = [](double z) {
-    return cases::make_scene(
-        case_text::read_text(block("[4, 4, 3]", "[4, 4, 3]", rollers,
-                                   fmt::format("shape = 'sphere'\ncentre = [0, 0, {}]\nradius = 3\n", z),
-                                   "damping scheme = 'implicit_euler'\nstep = 0.1\nend = 0.2\n")));
+    return cases::make_scene(case_text::read_text(
+        block("[4, 4, 3]", "[4, 4, 3]", rollers,
+              fmt::format("shape = 'sphere'\ncentre = [0, 0, {}]\nradius = 3\ndisplacement = [0, 0, -0.1]\n"
+                          "history = {{ ramp = [0, 0.1] }}\n",
+                          z),
+              "damping scheme = 'implicit_euler'\nstep = 0.1\nend = 0.2\n")));
   };
   std::optional<msm::DesignResult> design;
   const auto is_inside = Catch::Contains("is 0.2 mm inside the body at time 0, must be outside");
