@@ -161,8 +161,7 @@ std::vector<Estimate> estimate_designs(const RunOptions& options, const Question
 
 /// The springs of every design against the same finite elements.
 int run_designs(const RunOptions& options) {
-  std::vector<Question> questions =
-      read_questions(options.files, options.settings, {cases::Side::fem, options.meshes});
+  auto questions = read_questions(options.files, options.settings, {cases::Side::fem, options.meshes});
   check_memory(questions);
   questions = with_recording(std::move(questions), options.replay);
   claim_folder(options.out);
