@@ -138,7 +138,7 @@ double Contact::energy(const DisplacementAt& displacement, double load_factor) c
 }
 
 Contact::Misfit Contact::misfit(const DisplacementAt& displacement, double load_factor) const {
-  constexpr double rounding = 1e-13; // of places, relative to their distance from 0
+  constexpr double rounding = 1e-13; // relative error of places
   Misfit found;
   std::vector<double> change(sides_.size()), force(sides_.size()); // N, of each tool
   for_each_point(displacement, load_factor, [&](const Touch& touch) {

@@ -95,8 +95,8 @@ class Contact {
     ++revision_;
   }
   bool has_friction() const;
-  /// @throws cases::InputError when a tool is deeper inside the body at rest, at time 0, than a twentieth of a
-  /// face's side
+  /// @throws cases::InputError when a tool is deeper inside the body at rest, at time 0, than a twentieth of
+  /// a face's side
   void check_start() const;
   /// Whether no point passes through a tool between two states. A step in which one does leads to an
   /// equilibrium in which the point is on another side of the tool.

@@ -2,6 +2,7 @@
 
 #include "cases/case/case.hpp"
 #include "cases/scene/scene.hpp"
+#include "mechanics/contact/contact.hpp"
 #include "mechanics/dynamics/slowest_vibration.hpp"
 #include "mechanics/larger.hpp"
 

@@ -47,7 +47,7 @@ msm::Problem held_at(const cases::Mesh& mesh, double height) {
 }
 
 constexpr int n_warm = 10;  ///< steps that are not timed
-constexpr int n_rounds = 4; ///< of a tool
+constexpr int n_rounds = 4; ///< times that a tool goes in and out
 
 /// Timed steps, under loads that go on for ever.
 void run_steps(benchmark::State& state, msm::MovingSprings& body, const msm::Vector& rest, double n_unknowns,
