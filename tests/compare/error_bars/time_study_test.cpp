@@ -105,6 +105,9 @@ TEST_CASE("where a load jumps on the way, the error of time integration is told 
   definition = pulled("newmark", 0.0004);
   definition.loads.front().history = {{{0, 0}, {0, 1}}};
   CHECK_FALSE(cases::jumps_on_the_way(cases::make_scene(definition)));
+  CHECK(compare::order_in_time(cases::make_scene(definition)) == 2);
+  definition.tools.emplace_back(); // one may meet the body within a step
+  CHECK(compare::order_in_time(cases::make_scene(definition)) == 1);
 }
 
 TEST_CASE("a model that fails with half the step is told with its reason") {

@@ -80,7 +80,9 @@ def check_designs(springproof, folder, motion):
     words = [springproof, "run", "case.toml", "--replay", "pulls.csv"]
     done = subprocess.run([*words, "--designs", "hybrid,matched", "--json"], cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, (done.returncode, done.stderr)
-    print(done.stdout[:3000])
+    rows = {row["design"]: row["errors_percent"] for row in json.loads(done.stdout)["cases"][0]["designs"]}
+    assert math.isclose(rows["hybrid"]["surface"], motion["surface"]["error_percent"], rel_tol=1e-6), (rows, motion["surface"])
+    assert not math.isclose(rows["matched"]["surface"], rows["hybrid"]["surface"], rel_tol=1e-3), rows
     text = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False).stdout
     next_lines = [line for line in text.splitlines() if "springproof run" in line or "--designs" in line]
     assert next_lines and all("--replay" in line for line in next_lines), text
