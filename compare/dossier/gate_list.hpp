@@ -51,6 +51,9 @@ class MissingList {
   Json all_ = Json::array();
 };
 
+/// What the simulation is for, and its cases: bodies, materials, loads, tools and quantities of interest.
+Json context_to_json(const Dossier& dossier, const GateList& gates, MissingList& missing);
+
 /// How far the results of a case go: its mesh, materials, strains, the springs' range, and warnings.
 Json applicability_to_json(const StudiedCase& studied, const Dossier& dossier, MissingList& missing);
 

@@ -18,43 +18,6 @@ const char* const method =
     "their text is here, and this is no claim of compliance with them: whoever hands it in judges whether "
     "it is enough.";
 
-Json material_to_json(const cases::Material& material) {
-  return std::visit(
-      [](const auto& m) -> Json {
-        using Model = std::decay_t<decltype(m)>;
-        Json json{{"model", Model::name}};
-        if constexpr (std::is_same_v<Model, cases::LinearElastic>)
-          json.update(SPRINGPROOF_MEMBERS(m, youngs_modulus, poissons_ratio));
-        else if constexpr (std::is_same_v<Model, cases::Ogden>)
-          json.update(SPRINGPROOF_MEMBERS(m, mu, alpha, bulk_modulus));
-        else if constexpr (std::is_same_v<Model, cases::Yeoh>)
-          json.update(SPRINGPROOF_MEMBERS(m, c10, c20, c30, bulk_modulus));
-        else
-          json.update(SPRINGPROOF_MEMBERS(m, youngs_modulus_along, youngs_modulus_across,
-                                          poissons_ratio_along, poissons_ratio_across, shear_modulus_along));
-        return json;
-      },
-      material);
-}
-
-/// A case's materials with what motion and time see of them.
-Json materials_to_json(const cases::Case& definition) {
-  const auto materials = cases::materials_of(definition);
-  Json all = Json::array();
-  for (std::size_t m = 0; m < materials.size(); ++m) {
-    const cases::MaterialDynamics& dynamics = cases::dynamics_of(definition, m);
-    all.push_back(material_to_json(materials[m]));
-    all.back().update(SPRINGPROOF_MEMBERS(dynamics, density, mass_damping, stiffness_damping));
-    for (const cases::PronyTerm& term : dynamics.prony)
-      all.back()["prony"].push_back(SPRINGPROOF_MEMBERS(term, g, k, tau));
-  }
-  return all;
-}
-
-std::string kind_of(const cases::Measure& measure) {
-  return std::visit([](const auto& kind) { return std::string(kind.name); }, measure.kind);
-}
-
 /// A number of a measure with the gates that hold it.
 Json numbers_of(const Comparison& comparison, const GateList& gates, const MeasuredValue& m) {
   const std::string& name = comparison.scene.definition.name;
@@ -62,61 +25,6 @@ Json numbers_of(const Comparison& comparison, const GateList& gates, const Measu
   return {{"fem", of(cases::Quantity::fem)},
           {"msm", of(cases::Quantity::msm)},
           {"error_percent", of(cases::Quantity::error_percent)}};
-}
-
-Json context_of_case(const StudiedCase& studied, const GateList& gates) {
-  const cases::Scene& scene = studied.comparison.scene;
-  const cases::Case& definition = scene.definition;
-  const Answers& answers = studied.comparison.answers;
-  const std::string text = cases::read_text_file(definition.file);
-  Json quantities = Json::array();
-  for (const cases::Measure& measure : definition.measures)
-    quantities.push_back({{"measure", measure.name},
-                          {"kind", kind_of(measure)},
-                          {"unit", unit_of(measure)},
-                          {"gates", gates.names_of(definition.name, measure.name)}});
-  return {{"case", definition.name},
-          {"description", definition.description},
-          {"file", definition.file},
-          {"sha256", digest(text)},
-          {"text", text},
-          {"body", body_to_json(scene)},
-          {"materials", materials_to_json(definition)},
-          {"loads", loads_to_json(scene)},
-          {"tools", tools_to_json(definition)},
-          {"moves", definition.dynamics.has_value()},
-          {"fem", fmt::format("{} {}", cases::name_of(answers.resolved.formulation),
-                              cases::name_of(answers.resolved.element))},
-          {"springs", fmt::format("{}{}", cases::name_of(definition.msm.design),
-                                  answers.design ? " with " + springs_text(*answers.design) : "")},
-          {"quantities", quantities}};
-}
-
-Json context_to_json(const Dossier& dossier, const GateList& gates, MissingList& missing) {
-  const DossierContext& context = dossier.context;
-  const std::pair<const std::string*, std::array<const char*, 2>> all[]{
-      {&context.question, {"the question that the simulation is to answer", "--question TEXT"}},
-      {&context.role,
-       {"how much the decision rests on the simulation, beside other evidence", "--role TEXT"}},
-      {&context.consequence, {"what a wrong answer would do, and to whom", "--consequence TEXT"}}};
-  for (const auto& [text, words] : all)
-    if (text->empty()) missing.add("context", "", words[0], words[1]);
-  Json json{{"question", text_or_null(context.question)},
-            {"role", text_or_null(context.role)},
-            {"consequence", text_or_null(context.consequence)},
-            {"settings", dossier.settings},
-            {"cases", Json::array()}};
-  for (const StudiedCase& studied : dossier.cases) {
-    const cases::Case& definition = studied.comparison.scene.definition;
-    if (definition.measures.empty())
-      missing.add("context", definition.name, "quantities of interest: the case has no [[measure]]",
-                  "a [[measure]] in the case");
-    else if (definition.expectations.empty())
-      missing.add("context", definition.name, "what is required of the quantities: the case expects nothing",
-                  "an [[expect]] of reference \"requirement\" in the case");
-    json["cases"].push_back(context_of_case(studied, gates));
-  }
-  return json;
 }
 
 /// Another program's values on the same mesh.

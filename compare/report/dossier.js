@@ -29,14 +29,26 @@ const heads = (texts, units) => row(texts.map((text, i) => (i < units ? text_hea
 function dossier_context() {
   if (!dossier) return null;
   const { context } = dossier, said = (text) => text || make("em", null, "missing");
-  const material = (one) => Object.entries(one).filter(([, value]) => !missing(value))
+  const in_time = ["density", "mass_damping", "stiffness_damping", "prony"];
+  const material = (one) => Object.entries(one).filter(([key, value]) => !missing(value) && !in_time.includes(key))
     .map(([key, value]) => `${in_words(key)} ${typeof value === "string" ? in_words(value) : [value].flat().map((v) => general(v)).join(", ")}`)
     .join("; ");
+  // What a material adds to its elasticity, where there is anything.
+  const inertia = (one) => [!missing(one.density) && `density ${general(one.density)} kg/m³`,
+    one.mass_damping > 0 && `mass damping ${figure(one.mass_damping)} 1/s`,
+    one.stiffness_damping > 0 && `stiffness damping ${figure(one.stiffness_damping)} s`,
+    ...one.prony.map(({ g, k, tau }) => `memory g ${figure(g)}, k ${figure(k)}, τ ${figure(tau)} s`)].filter(Boolean).join("; ");
+  const inertias = (materials) => (materials.some(inertia) ? materials.map((one) => inertia(one) || "nothing").join(" | ") : "");
+  const place = (xyz) => `(${xyz.map((x) => general(x, 4)).join(", ")}) mm`;
+  const tool = (one) => [`${one.name}: ${in_words(one.shape)}`,
+    one.path ? `path ${one.path.map(([time, ...xyz]) => `${figure(time)} s ${place(xyz)}`).join(", ")}`
+      : `at ${place(one.at_mm)}, moved by ${place(one.displacement_mm)}`, `friction ${general(one.friction)}`].join("; ");
   const force = ({ force_N }) => (force_N ? `total (${force_N.map((f) => general(f, 4)).join(", ")}) N` : "by histories");
   const one_case = (one) => [make("h3", null, one.case), make("p", null, one.description), make("dl", { class: "facts" },
     [["body", `${one.body.size_mm.map((x) => general(x, 4)).join(" × ")} mm, ${one.body.cells} cells, ${one.body.nodes} nodes`],
-      ["material, MPa", one.materials.map(material).join(" | ")], ["loads", force(one.loads)], ["finite elements", in_words(one.fem)],
-      ["springs", in_words(one.springs)], ["file", `${one.file}; SHA-256 ${one.sha256}`]]
+      ["material, MPa", one.materials.map(material).join(" | ")], ["in time", inertias(one.materials)], ["loads", force(one.loads)],
+      ["tools", one.tools.map(tool).join(" | ")], ["finite elements", in_words(one.fem)],
+      ["springs", in_words(one.springs)], ["file", `${one.file}; SHA-256 ${one.sha256}`]].filter(([, value]) => value)
       .map(([name, value]) => [make("dt", null, name), make("dd", { class: "wide" }, value)])),
   table("quantities", "Quantities of interest", heads(["measure", "kind", "unit", "gates"], 4), body(one.quantities.map((q) =>
     row([row_head(typeset(q.measure)), text_cell(in_words(q.kind)), text_cell(typeset(q.unit)), gate_cell(q.gates)])))),

@@ -194,18 +194,6 @@ Json loads_to_json(const cases::Scene& scene) {
           {"areas_mm2", areas}};
 }
 
-Json tools_to_json(const cases::Case& definition) {
-  Json all = Json::array();
-  for (const cases::Tool& tool : definition.tools)
-    all.push_back({{"name", tool.name},
-                   {"shape", std::visit([](const auto& shape) { return shape.name; }, tool.shape)},
-                   {"begins_at_mm", components_to_json(tool.place(0))},
-                   {"displacement_mm", tool.path.empty() ? components_to_json(tool.displacement) : Json()},
-                   {"path", tool.path},
-                   {"friction", tool.friction}});
-  return all;
-}
-
 std::string stiffness_text(const msm::CellStiffness& k) {
   return fmt::format("k_e, k_f, k_d = {:.4g} N/m", fmt::join(scaled(k, 1e3).springs(), ", ")) +
          (k.midline != 0 ? fmt::format(", k_m = {:.4g} N/m", 1e3 * k.midline) : "") +

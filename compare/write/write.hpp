@@ -36,8 +36,6 @@ Json body_to_json(const cases::Scene& scene);
 /// {"force_N", "moment_N_mm", "about_mm" (null where a load follows a history), "areas_mm2": {"load[0]":
 /// ...}}
 Json loads_to_json(const cases::Scene& scene);
-/// [{"name", "shape", "begins_at_mm", "displacement_mm" or null, "path", "friction"}], one for each tool.
-Json tools_to_json(const cases::Case& definition);
 
 /// A cell's stiffnesses: "k_e, k_f, k_d = 31, 47, 33 N/m, k_v = 0.02 MPa", and exponents if there are any.
 std::string stiffness_text(const msm::CellStiffness& k);

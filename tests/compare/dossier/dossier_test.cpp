@@ -154,6 +154,41 @@ TEST_CASE("a dossier of a case that was not solved says in every section what it
                       "--measured"));
 }
 
+TEST_CASE("the context of a dossier holds tools, and what materials add to their elasticity") {
+  const TemporaryFolder folder;
+  StudiedCase studied;
+  studied.comparison =
+      comparison_of(cases::make_scene(cases::read_case(folder.write("block.toml", block))), {});
+  cases::Case& definition = studied.comparison.scene.definition;
+  definition.material_dynamics = {1000, 2, 0.001, {{0.3, 0.1, 5}}};
+  cases::Tool ball{"ball", cases::tools::Sphere{4}}, pin{"pin", cases::tools::Punch{2}};
+  ball.at = {5, 5, 14};
+  ball.displacement = {0, 0, -1};
+  ball.friction = 0.25;
+  pin.path = {{0, 5, 5, 11}, {0.5, 5, 5, 9}};
+  definition.tools = {ball, pin};
+  Dossier dossier;
+  dossier.cases.push_back(std::move(studied));
+  GateList gates("");
+  MissingList missing;
+  const Json context = context_to_json(dossier, gates, missing)["cases"][0];
+  const Json& material = context["materials"].at(0);
+  CHECK(material["youngs_modulus"] == 1);
+  CHECK(material["density"] == 1000);
+  CHECK(material["mass_damping"] == 2);
+  CHECK(material["stiffness_damping"] == 0.001);
+  CHECK(material["prony"] == Json::array({{{"g", 0.3}, {"k", 0.1}, {"tau", 5.}}}));
+  REQUIRE(context["tools"].size() == 2);
+  CHECK(context["tools"][0] == Json{{"name", "ball"},
+                                    {"shape", "sphere"},
+                                    {"at_mm", {5., 5., 14.}},
+                                    {"displacement_mm", {0., 0., -1.}},
+                                    {"path", nullptr},
+                                    {"friction", 0.25}});
+  CHECK(context["tools"][1]["path"][1] == Json::array({0.5, 5., 5., 9.}));
+  CHECK(context["tools"][1]["displacement_mm"].is_null());
+}
+
 TEST_CASE("a dossier refuses keys and data without a meaning before anything is solved") {
   const TemporaryFolder folder;
   DossierRequest request;
