@@ -2,7 +2,6 @@
 #include "cases/case/input_file.hpp"
 #include "cases/case/read_case.hpp"
 #include "cases/case/toml_table.hpp"
-#include "compare/error_bars/convergence.hpp"
 #include "compare/fit/fit.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/solve/estimate.hpp"
@@ -10,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace springproof::compare {
 
@@ -296,54 +296,30 @@ HeldOut predict_held_out(Fit& fit, const FitData& held, const Predict& predict, 
           prediction_error_percent(observations, found[1].values, all)};
 }
 
-/// Data of a state are held out together where there are more than two, its field or surface always.
-std::vector<int> groups_of(const Layout& layout, const FitData& data) {
+/// Data of a state are held out together where there are states enough for it; else every datum by itself,
+/// but a field or a surface as a whole: what is left of one would tell what is held out of it.
+std::vector<int> groups_of(const FitData& data, const Layout& layout) {
+  const bool has_states = data.states.size() > 2;
   std::vector<int> groups;
+  std::map<std::size_t, int> number; // groups by the state, or by the place among the data
   for (std::size_t i = 0; i < layout.state_of.size(); ++i) {
-    const std::size_t state = layout.state_of[i], beside = data.data.size();
-    groups.push_back(static_cast<int>(data.states.size() > 2 ? state : i < beside ? i : beside + state));
+    const bool is_alone = !has_states && i < data.data.size();
+    const std::size_t of = is_alone ? i : data.data.size() + layout.state_of[i];
+    groups.push_back(number.emplace(of, static_cast<int>(number.size())).first->second);
   }
   return groups;
 }
 
-} // namespace
-
-FitData limits_as_data(const FitCases& all, const AnswerQuestions& answer) {
-  FitData data;
-  std::vector<Question> questions;
-  Request request{cases::Side::fem};
-  request.meshes = 3;
-  for (const bool is_held_out : {false, true})
-    for (const std::string& file : is_held_out ? all.held_out : all.files) {
-      data.states.push_back({file, {}, is_held_out});
-      data.states.back().markers.push_back({"displacement", cases::measures::DisplacementFieldL2{}});
-      questions.push_back({scene_of(all, data.states.back(), {}), request});
-      const cases::Case& definition = questions.back().scene.definition;
-      cases::refuse_network(definition, "--to limit", "give data");
-      if (definition.dynamics)
-        throw cases::InputError(file + ": --to limit: a motion has no limit of its field; give data");
-      if (definition.fem.real_time)
-        throw cases::InputError(definition.fem.where, "real_time must be left out with --to limit");
-      data.states.back().markers.clear();
-    }
-  const std::vector<Answers> answers = answer(questions);
-  for (std::size_t q = 0; q < questions.size(); ++q) {
-    const Answers& found = answers[q];
-    const std::string& file = data.states[q].file;
-    if (!found.fem.converged())
-      throw cases::SolveError(file + ": the finite elements failed: " + found.fem.solution.message);
-    if (!found.refined) throw cases::InputError(file + ": --to limit: there are no refined finite elements");
-    const MeshStudy study =
-        study_meshes(questions[q].scene, *found.refined, questions[q].scene.definition.fem.refine);
-    if (!study.field)
-      throw cases::InputError(
-          fmt::format("{}: --to limit: the finite elements have none: {}; give data, or spread "
-                      "the load over an area",
-                      file, study.measures.back().no_reference));
-    data.states[q].field = study.field->value;
-  }
-  return data;
+HeldOut hold_out_in_turn(const LeastSquaresProblem& problem, const LeastSquares& found, const FitData& data,
+                         const Layout& layout) {
+  const std::vector<int> groups = groups_of(data, layout);
+  const FitState& first = data.states.front();
+  if (first.n_beside_data() > 0 && *std::max_element(groups.begin(), groups.end()) == 0)
+    return {"", fmt::format("one {}; name cases with --hold-out", first.surface ? "surface" : "field")};
+  return cross_validate(problem, found, groups);
 }
+
+} // namespace
 
 Fit fit_cases(const FitCases& all, const FitData& data, const std::string& data_name,
               const std::vector<std::string>& free, cases::Side side, const AnswerQuestions& answer,
@@ -389,7 +365,7 @@ Fit fit_cases(const FitCases& all, const FitData& data, const std::string& data_
   add_rows(fit, fitted, layout, observations, fit.found.predicted);
   fit.held_out =
       held.states.empty()
-          ? cross_validate(problem, fit.found, groups_of(layout, fitted))
+          ? hold_out_in_turn(problem, fit.found, fitted, layout)
           : predict_held_out(fit, held, Model(all, held, parameters, side, answer, client), problem.start());
   fit.settings = values_of(parameters, fit.found.parameters, 10);
   fit.n_solves = problem.n_predicted() * fitted.states.size();

@@ -113,7 +113,7 @@ std::optional<double> prediction_error_percent(const Observations& data, const E
 
 /// What a fit errs by on data that it did not see.
 struct HeldOut {
-  std::string how;                             ///< "named", "5-fold"
+  std::string how;                             ///< "named", "5-fold"; empty: nothing could be
   std::string reason;                          ///< why there is no error; empty where there is
   std::optional<double> error_percent{};       ///< with the fitted values
   std::optional<double> start_error_percent{}; ///< with those of the start

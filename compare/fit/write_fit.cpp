@@ -91,7 +91,7 @@ void write_undetermined(std::ostream& out, const Fit& fit) {
 
 void write_held_out(std::ostream& out, const HeldOut& held) {
   if (!held.reason.empty()) {
-    write_paragraph(out, "held out: nothing. " + held.reason, "", "  ");
+    write_paragraph(out, "nothing held out: " + held.reason, "", "  ");
     return;
   }
   if (!held.error_percent) {

@@ -125,15 +125,39 @@ TEST_CASE("springs come nearer to refined finite elements by a fit, and other lo
   REQUIRE(fit.held_out.start_error_percent);
 }
 
-TEST_CASE("of one field nothing is held out: its other points tell what one of them is") {
+TEST_CASE("a field is held out as a whole, and one alone not at all") {
   const TemporaryFolder folder;
-  const FitCases cases{{folder.write("block.toml", block)}, {}, {}};
-  const Fit fit = fit_cases(cases, limits_as_data(cases, answer), "limit", {"material.youngs_modulus"},
-                            cases::Side::msm, answer);
-  REQUIRE(fit.found.has_values());
-  CHECK_FALSE(fit.held_out.error_percent);
-  CHECK_THAT(fit.held_out.reason, Catch::Contains("in 1 groups are too few to hold any out") &&
-                                      Catch::Contains("name cases with --hold-out"));
+  const FitCases cases{{folder.write("bar.toml", bar)}, {}, {}};
+  const auto state = [&](double factor) {
+    FitState one{cases.files[0], {"load[0].value[2]=" + std::to_string(0.01 * factor)}, false};
+    const cases::Scene scene = scene_of(cases, one);
+    for (const Eigen::Vector3d& x : scene.mesh.nodes)
+      one.field.push_back(factor * 0.01 / true_modulus *
+                          Eigen::Vector3d(-true_ratio, -true_ratio, 1).cwiseProduct(x));
+    return one;
+  };
+  const auto fitted = [&](const FitData& data) {
+    return fit_cases(cases, data, "limit", {"material.youngs_modulus"}, cases::Side::fem, answer);
+  };
+  const Fit one = fitted({{state(1)}, {}});
+  REQUIRE(one.found.has_values());
+  const Json json = fits_to_json({one})["fits"][0]["held_out"];
+  for (const char* key : {"how", "error_percent", "start_error_percent", "factor"})
+    CHECK(json[key].is_null());
+  CHECK(json["reason"] == "one field; name cases with --hold-out");
+  std::ostringstream text;
+  write_fit_text(text, one);
+  CHECK_THAT(text.str(), Catch::Contains("nothing held out: one field; name cases with --hold-out"));
+
+  // The second field is twice as soft as the first: each tells another modulus, and errs by half of the other
+  // field or by as much as it. A single component left out would be told by the rest of its own field.
+  FitState soft = state(1);
+  soft.settings = {"load[0].value[2]=0.02"};
+  for (Eigen::Vector3d& u : soft.field) u *= 4;
+  const Fit two = fitted({{state(1), soft}, {}});
+  REQUIRE(two.found.has_values());
+  CHECK(two.held_out.how == "2-fold");
+  CHECK(two.held_out.error_percent.value() > 50);
 }
 
 TEST_CASE("what cannot be fitted is refused with what to do") {
