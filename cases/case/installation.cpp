@@ -18,7 +18,7 @@ namespace {
                           reason ? reason : "a shared object of the program");
 }
 
-/// The program or shared object that this function is in.
+/// Where this function is.
 const fs::path& own_path() {
   static const fs::path path = [] {
     Dl_info unused{};

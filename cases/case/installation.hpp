@@ -6,7 +6,7 @@
 /// program can be moved as a whole.
 namespace springproof::cases {
 
-/// The file that this code is in: the program's shared object, or a program that has it all.
+/// The program or shared object that this code is in.
 std::string own_file();
 
 /// A file that nobody but the program uses: it lies beside the file that this code is in (in a build) or in

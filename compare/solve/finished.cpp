@@ -123,12 +123,9 @@ Answers kept_answers(const std::string& folder, const Question& question, FileNa
 } // namespace
 
 const std::string& this_program() {
-  static const std::string identity = [] {
-    std::string bytes = read_file(cases::own_file());
-    const std::string solvers = cases::private_file("springproof_solvers.so");
-    if (std::filesystem::exists(solvers)) bytes += read_file(solvers);
-    return program_version() + " " + program_commit() + " " + digest(bytes);
-  }();
+  static const std::string identity =
+      program_version() + " " + program_commit() + " " +
+      digest_of_files({cases::own_file(), cases::private_file("springproof_solvers.so")});
   return identity;
 }
 

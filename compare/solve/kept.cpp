@@ -7,7 +7,10 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <openssl/evp.h>
 #include <openssl/sha.h>
 #include <stdexcept>
 
@@ -84,6 +87,24 @@ bool exists(const Shard& shard) {
   return 1 <= shard.index && shard.index <= shard.count && shard.count <= most_shards;
 }
 
+/// SHA-256 of a file, read in pieces: a library as one text takes four times as long.
+/// @return "none" if there is no file that can be read
+std::string digest_of_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return "none";
+  const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+  std::vector<char> piece(1 << 16);
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> sum{};
+  bool is_good = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+  while (is_good && in) {
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    is_good = EVP_DigestUpdate(context.get(), piece.data(), static_cast<std::size_t>(in.gcount())) == 1;
+  }
+  is_good = is_good && !in.bad() && EVP_DigestFinal_ex(context.get(), sum.data(), nullptr) == 1;
+  if (!is_good) throw std::runtime_error(path + ": cannot be digested");
+  return fmt::format("{:02x}", fmt::join(sum, ""));
+}
+
 /// 0, which no shard has, for anything else than a number that one may have.
 int shard_number(const nlohmann::json& value) {
   return value.is_number_integer() && 1 <= value && value <= most_shards ? value.get<int>() : 0;
@@ -95,6 +116,12 @@ std::string digest(const std::string& bytes) {
   std::array<unsigned char, SHA256_DIGEST_LENGTH> sum;
   SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), sum.data());
   return fmt::format("{:02x}", fmt::join(sum, ""));
+}
+
+std::string digest_of_files(const std::vector<std::string>& paths) {
+  std::string digests;
+  for (const std::string& path : paths) digests += digest_of_file(path) + ' ';
+  return digest(digests);
 }
 
 std::string kept_text(const std::string& identity, const std::string& result) {

@@ -10,6 +10,9 @@ namespace springproof::compare {
 /// SHA-256 of these bytes as 64 hexadecimal digits.
 std::string digest(const std::string& bytes);
 
+/// Digest of what files hold. A file that is not there counts too.
+std::string digest_of_files(const std::vector<std::string>& paths);
+
 /// The content of a kept file.  @param identity  digest of all that the result depends on
 std::string kept_text(const std::string& identity, const std::string& result);
 
@@ -53,7 +56,8 @@ enum class FileNames {
 };
 
 /// Version, commit and digest of the running program. The commit does not tell one build of uncommitted
-/// changes from another; the program's own bytes do.
+/// changes from another; the bytes of the shared objects that hold the models do. They are read once, at the
+/// first call.
 const std::string& this_program();
 
 /// The cases that an earlier, interrupted command has solved, kept in DIR/solved, one file a question, which

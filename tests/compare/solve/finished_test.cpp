@@ -1,5 +1,6 @@
 
 #include "cases/case/error.hpp"
+#include "cases/case/installation.hpp"
 #include "compare/provenance/whole_file.hpp"
 #include "compare/solve/fields.hpp"
 #include "compare/solve/kept.hpp"
@@ -196,6 +197,24 @@ TEST_CASE("answers are for one case, one request and one setting of PETSc") {
   CHECK_FALSE(is_found(question()));
   unsetenv("PETSC_OPTIONS");
   CHECK(is_found(question()));
+}
+
+TEST_CASE("a program is known by the shared objects that hold its models") {
+  const std::string library = cases::own_file(), solvers = cases::private_file("springproof_solvers.so");
+  CHECK_THAT(library, Catch::Contains("libspringproof.so")); // not the program that is started
+  const std::string digest = compare::digest_of_files({library, solvers});
+  CHECK_THAT(compare::this_program(), Catch::EndsWith(" " + digest));
+  const TemporaryFolder folder;
+  std::string bytes = compare::read_file(library);
+  const std::string copy = folder.write("library", bytes);
+  CHECK(compare::digest_of_files({copy, solvers}) == digest);
+  bytes[bytes.size() / 2] ^= 1;
+  folder.write("library", bytes);
+  CHECK(compare::digest_of_files({copy, solvers}) != digest);
+  const std::string other = folder.write("solvers", "other solvers");
+  CHECK(compare::digest_of_files({library, other}) != digest);
+  CHECK(compare::digest_of_files({library, other}) !=
+        compare::digest_of_files({library, (folder.path / "none").string()}));
 }
 
 TEST_CASE("a case is the same wherever its file lies and its lines stand") {
