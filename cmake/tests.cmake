@@ -46,7 +46,15 @@ function(springproof_tests folder)
   target_compile_definitions(${target} PRIVATE
     SPRINGPROOF_SOURCE_DIR="${CMAKE_SOURCE_DIR}" SPRINGPROOF_PROGRAM="$<TARGET_FILE:springproof>")
   target_link_libraries(${target} PRIVATE ${ARG_LIBRARIES} Catch2::Catch2WithMain)
-  target_precompile_headers(${target} PRIVATE <Eigen/Dense> <catch2/catch.hpp>)
+  # Programs with the same libraries have the same flags, and share what was parsed once.
+  string(MAKE_C_IDENTIFIER "springproof_headers_of_${ARG_LIBRARIES}" headers)
+  get_property(first GLOBAL PROPERTY ${headers})
+  if(first)
+    target_precompile_headers(${target} REUSE_FROM ${first})
+  else()
+    target_precompile_headers(${target} PRIVATE <Eigen/Dense> <catch2/catch.hpp>)
+    set_property(GLOBAL PROPERTY ${headers} ${target})
+  endif()
   # fmt 9 calls an unqualified compare(), which a source before it, of those compiled together, makes a namespace.
   set_target_properties(${target} PROPERTIES UNITY_BUILD_CODE_BEFORE_INCLUDE "#include <fmt/format.h>")
   set(kinds verification regression peer)

@@ -101,7 +101,7 @@ int run(const EigenOptions& asked) {
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
   const EigenspaceAnalysis analysis =
-      analyse_eigenspaces(solvers().full_spectrum(fem), solvers().full_spectrum(msm));
+      analyse_eigenspaces(mechanics::spectrum(fem), mechanics::spectrum(msm));
   const std::optional<cases::Mesh> body = body_of(options, request.cell);
   std::optional<FreeBodyModes> modes;
   if (body) modes = free_body_modes(assemble(*body, fem), assemble(*body, msm), options.n_modes);

@@ -5,8 +5,8 @@
 #include "compare/error_bars/convergence.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/solve/estimate.hpp"
+#include "mechanics/dense.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -219,7 +219,7 @@ double largest_gradient(const cases::Mesh& mesh, const std::vector<Eigen::Vector
   for (std::size_t c = here.cells.begin; c < here.cells.end; ++c) {
     const Eigen::Matrix3d gradient =
         deformation_gradient(mesh, c, displacement, here.nodes.begin) - Eigen::Matrix3d::Identity();
-    largest = std::max(largest, Eigen::JacobiSVD<Eigen::Matrix3d>(gradient).singularValues()[0]);
+    largest = std::max(largest, mechanics::singular_values(gradient)[0]);
   }
   return sharing ? sharing->largest(largest) : largest;
 }

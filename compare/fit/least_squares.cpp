@@ -1,8 +1,8 @@
 #include "compare/fit/least_squares.hpp"
 
+#include "mechanics/dense.hpp"
 #include "msm/design/minimise.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -225,14 +225,14 @@ void LeastSquaresProblem::judge(LeastSquares& found, const VectorXd& coordinates
   const double factor = std::max(found.deviation_factor, 1e-12);
   const Eigen::MatrixXd relative = (deviations * factor).cwiseInverse().asDiagonal() *
                                    model.jacobian(places, Eigen::all) * sizes.asDiagonal();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> parts(relative, Eigen::ComputeThinU | Eigen::ComputeFullV);
+  const mechanics::Spectrum parts = mechanics::right_singular(relative);
   Eigen::VectorXd values = Eigen::VectorXd::Zero(n);
-  values.head(parts.singularValues().size()) = parts.singularValues();
+  values.head(parts.values.size()) = parts.values;
   found.singular_values = listed(values);
   const double least = std::max(1e-5, found.noise.value_or(0) / found.step); // see linearise()
   VectorXd variance = VectorXd::Zero(n);
   for (Index k = 0; k < n; ++k) {
-    const VectorXd direction = parts.matrixV().col(k);
+    const VectorXd direction = parts.vectors.col(k);
     if (!(values[k] > least * values[0] && values[k] > half_width))
       found.undetermined.push_back(combination(direction, parameters_));
     else

@@ -1,8 +1,8 @@
 #include "cases/mesh/sharing.hpp"
 #include "compare/measure/measure.hpp"
+#include "mechanics/dense.hpp"
 #include "mechanics/larger.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -70,9 +70,8 @@ double component_of(const cases::SymmetricTensor& tensor, cases::TensorComponent
   using cases::TensorComponent;
   if (component == TensorComponent::von_mises) return von_mises(tensor);
   if (component < TensorComponent::von_mises) return tensor[static_cast<std::size_t>(component)];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrix_of(tensor), Eigen::EigenvaluesOnly);
   const int from_largest = static_cast<int>(component) - static_cast<int>(TensorComponent::principal_1);
-  return axes.eigenvalues()[2 - from_largest]; // Eigen's ascend
+  return mechanics::eigenvalues(matrix_of(tensor))[2 - from_largest]; // Eigen's ascend
 }
 
 double of_region(const cases::measures::OfCells& measure, const cases::Scene& scene,

@@ -6,7 +6,6 @@
 #include "msm/moving_springs.hpp"
 
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -22,7 +21,7 @@ constexpr double same_subspace = 1e-6; // tolerance on the cosine of the largest
 /// angles
 bool are_the_same(const Eigen::MatrixXd& product) {
   return product.rows() == product.cols() &&
-         Eigen::JacobiSVD<Eigen::MatrixXd>(product).singularValues().minCoeff() > 1 - same_subspace;
+         mechanics::singular_values(product).minCoeff() > 1 - same_subspace;
 }
 
 /// Deforming eigenspaces that end within the wanted modes.
@@ -42,7 +41,7 @@ ModePair match(const Eigenspace& fem, const FreeBodyModes& modes, const std::vec
     const Eigen::MatrixXd product = v.transpose() * basis(modes.msm, candidate);
     if (!(product.squaredNorm() > overlap)) continue;
     overlap = product.squaredNorm();
-    const double cosine = Eigen::JacobiSVD<Eigen::MatrixXd>(product).singularValues().minCoeff();
+    const double cosine = mechanics::singular_values(product).minCoeff();
     best = {fem, candidate, candidate.eigenvalue / fem.eigenvalue,
             std::acos(std::min(1.0, cosine)) * 180 / M_PI};
   }
@@ -247,7 +246,7 @@ std::vector<MatchedModes> match_modes(const Vibrations& fem, const Vibrations& m
     const std::vector<int> of_msm = best_modes(basis, msm, masses);
     if (of_msm.size() < of_fem.size()) break; // the springs have no more modes
     const Eigen::MatrixXd product = basis.transpose() * weighted(msm, of_msm, masses);
-    const double cosine = Eigen::JacobiSVD<Eigen::MatrixXd>(product).singularValues().minCoeff();
+    const double cosine = mechanics::singular_values(product).minCoeff();
     const double fem_hz = fem.hertz(of_fem).mean(), msm_hz = msm.hertz(of_msm).mean();
     matched.push_back(
         {fem_hz, space.dimension, {}, std::min(1., cosine), {}, of_fem.front(), of_msm.front()});

@@ -2,6 +2,7 @@
 
 #include "cases/scene/scene.hpp"
 #include "compare/solve/solvers.hpp"
+#include "mechanics/dense.hpp"
 #include "mechanics/vibrating_body.hpp"
 #include "msm/design/small_strain.hpp"
 
@@ -18,7 +19,7 @@
 /// the supports of a case and without its loads.
 namespace springproof::compare {
 
-using mechanics::petsc::Spectrum;
+using mechanics::Spectrum;
 
 struct Eigenspace {
   double eigenvalue; ///< mean of the cluster, N/mm; of vibrations Hz

@@ -37,7 +37,6 @@ const SolverFunctions springproof_solvers{
     [](const cases::Scene& scene, const msm::SpringBody& springs) {
       return msm::solve_by_snes(scene, springs, MPI_COMM_WORLD);
     },
-    mechanics::petsc::full_spectrum,
     mechanics::petsc::lowest_spectrum,
     mechanics::petsc::lowest_vibrations};
 

@@ -18,9 +18,8 @@ struct SolverFunctions {
   cases::Solution (*follow_finite_elements)(const cases::Scene&);
   mechanics::VibratingBody (*vibrating_elements)(const cases::Scene&);
   cases::Solution (*solve_by_snes)(const cases::Scene&, const msm::SpringBody&);
-  mechanics::petsc::Spectrum (*full_spectrum)(const Eigen::MatrixXd&);
-  mechanics::petsc::Spectrum (*lowest_spectrum)(Eigen::SparseMatrix<double>, int n_pairs);
-  mechanics::petsc::Spectrum (*lowest_vibrations)(Eigen::SparseMatrix<double> stiffness,
+  mechanics::Spectrum (*lowest_spectrum)(Eigen::SparseMatrix<double>, int n_pairs);
+  mechanics::Spectrum (*lowest_vibrations)(Eigen::SparseMatrix<double> stiffness,
                                                   Eigen::SparseMatrix<double> mass, int n_pairs);
 };
 

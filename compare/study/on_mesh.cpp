@@ -119,7 +119,7 @@ FreeMotions free_motions(const msm::Lattice& lattice) {
   const int n_pairs = static_cast<int>(std::min<Eigen::Index>(stiffness.rows(), n_rigid + most_motions));
   FreeMotions found;
   if (!(zero > 0)) return {n_pairs - n_rigid, true, 0, {}}; // no springs
-  const mechanics::petsc::Spectrum lowest = solvers().lowest_spectrum(stiffness, n_pairs);
+  const mechanics::Spectrum lowest = solvers().lowest_spectrum(stiffness, n_pairs);
   std::vector<Eigen::Index> columns;
   for (Eigen::Index mode = 0; mode < lowest.values.size(); ++mode) {
     if (lowest.values[mode] < -zero)

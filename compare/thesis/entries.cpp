@@ -140,7 +140,7 @@ constexpr double cell_edge = 2;    // mm; thesis section 4.2.2
 constexpr double cell_modulus = 1; // MPa: with this edge k' = 2 k/(L0 E) is k itself
 
 Spectrum springs_spectrum(const msm::CellStiffness& stiffness) {
-  return solvers().full_spectrum(msm::cell_stiffness_matrix(msm::cube(cell_edge), stiffness));
+  return mechanics::spectrum(msm::cell_stiffness_matrix(msm::cube(cell_edge), stiffness));
 }
 
 CellAnalysis analyse_cell(double poissons_ratio) {
@@ -150,7 +150,7 @@ CellAnalysis analyse_cell(double poissons_ratio) {
   const msm::DesignRequest request = design_request(material, msm::cube(cell_edge), options);
   const msm::CellStiffness stiffness = msm::design(request).stiffness;
   return {poissons_ratio, stiffness,
-          analyse_eigenspaces(solvers().full_spectrum(request.element_stiffness(material)),
+          analyse_eigenspaces(mechanics::spectrum(request.element_stiffness(material)),
                               springs_spectrum(stiffness))};
 }
 

@@ -1,6 +1,6 @@
 #include "fem_reference/grid/stencil_levels.hpp"
+#include "mechanics/dense.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 namespace springproof::fem_reference::grid {
@@ -30,7 +30,7 @@ class Lanczos {
     Field<double> right = random_field(), vector = Field<double>::Zero(right.size()), product = vector;
     Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(most_steps, most_steps);
     double last = 0; // length of the part of a product that is new
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+    mechanics::Spectrum ritz;
     Eigen::VectorXd errors;
     for (int step = 0;; ++step) {
       orthogonalise(right);
@@ -39,10 +39,10 @@ class Lanczos {
       if (step > 0) {
         last = std::sqrt(std::max(squared, 0.));
         const Eigen::MatrixXd block = projected.topLeftCorner(step, step);
-        ritz.compute((block + block.transpose()) / 2);
-        errors = last * ritz.eigenvectors().row(step - 1).transpose().cwiseAbs();
+        ritz = mechanics::spectrum((block + block.transpose()) / 2);
+        errors = last * ritz.vectors.row(step - 1).transpose().cwiseAbs();
         if (step == most_steps || !(squared > 0) ||
-            (step >= fewest_steps && is_known(ritz.eigenvalues(), errors)))
+            (step >= fewest_steps && is_known(ritz.values, errors)))
           break;
       }
       if (!(squared > 0)) return 0;
@@ -57,11 +57,11 @@ class Lanczos {
       for (int row = 0; row < step; ++row) projected(step, row) = row + 1 == step ? last : 0;
     }
     int n_negative = 0;
-    for (Eigen::Index r = 0; r < ritz.eigenvalues().size() && ritz.eigenvalues()[r] < 0; ++r) {
+    for (Eigen::Index r = 0; r < ritz.values.size() && ritz.values[r] < 0; ++r) {
       ++n_negative;
       Pair mode{Field<float>::Zero(right.size()), Field<float>::Zero(right.size())};
       for (std::size_t j = 0; j < basis_.size(); ++j) {
-        const auto weight = static_cast<float>(ritz.eigenvectors()(static_cast<Eigen::Index>(j), r));
+        const auto weight = static_cast<float>(ritz.vectors(static_cast<Eigen::Index>(j), r));
         mode.primal += weight * basis_[j].primal;
         mode.dual += weight * basis_[j].dual;
       }

@@ -1,8 +1,9 @@
 #include "mechanics/grid/lowest_mode.hpp"
 
+#include "mechanics/dense.hpp"
 #include "mechanics/grid/field.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <utility>
 
@@ -53,9 +54,9 @@ std::optional<NonlinearProblem::Mode> lowest_mode(const ModeProblem& problem, co
       break; // nothing new in the residual
     const Eigen::MatrixXd left = factor.matrixL().solve(small);
     const Eigen::MatrixXd reduced = factor.matrixL().solve(left.transpose());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(reduced);
-    const Eigen::VectorXd weights = factor.matrixU().solve(ritz.eigenvectors().col(0));
-    const double before = std::exchange(eigenvalue, ritz.eigenvalues()[0]);
+    const Spectrum ritz = spectrum(reduced);
+    const Eigen::VectorXd weights = factor.matrixU().solve(ritz.vectors.col(0));
+    const double before = std::exchange(eigenvalue, ritz.values[0]);
     for (Columns* columns : {&basis, &image}) {
       auto& [now, residual_part, step] = *columns;
       scale(step, n == 3 ? weights[2] : 0, n_threads);

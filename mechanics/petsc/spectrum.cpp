@@ -67,11 +67,6 @@ Spectrum lowest_pairs(Eigen::SparseMatrix<double>& stiffness, Eigen::SparseMatri
 
 } // namespace
 
-Spectrum full_spectrum(const Eigen::MatrixXd& matrix) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver((matrix + matrix.transpose()) / 2);
-  return {solver.eigenvalues(), solver.eigenvectors()};
-}
-
 Spectrum lowest_spectrum(Eigen::SparseMatrix<double> matrix, int n_pairs) {
   return lowest_pairs(matrix, nullptr, n_pairs);
 }

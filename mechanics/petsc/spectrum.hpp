@@ -1,24 +1,14 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "mechanics/dense.hpp"
+
 #include <Eigen/SparseCore>
 
-/// Eigenpairs of symmetric matrices, for callers that include none of SLEPc's headers.
+/// Eigenpairs of sparse symmetric matrices, for callers that include none of SLEPc's headers.
 namespace springproof::mechanics::petsc {
 
-/// Eigenvalues in ascending order and their orthonormal eigenvectors, a column each. Inside a multiple
-/// eigenvalue the basis is whatever the solver returned.
-struct Spectrum {
-  Eigen::VectorXd values;
-  Eigen::MatrixXd vectors;
-};
-
-/// All eigenpairs of a small dense matrix, by Eigen.
-/// @param matrix  only its symmetric part counts
-Spectrum full_spectrum(const Eigen::MatrixXd& matrix);
-
 /// The lowest eigenpairs of a sparse positive semidefinite matrix, by Krylov-Schur on the inverse shifted
-/// just below zero (MUMPS), so that rigid modes do no harm. As full_spectrum() otherwise.
+/// just below zero (MUMPS), so that rigid modes do no harm. As mechanics::spectrum() otherwise.
 /// @param matrix    symmetric, both triangles    @param n_pairs  at most the matrix's size
 /// @throws SolveError if fewer pairs converge to 1e-10 relative
 Spectrum lowest_spectrum(Eigen::SparseMatrix<double> matrix, int n_pairs);

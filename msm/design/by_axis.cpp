@@ -1,9 +1,9 @@
 #include "msm/design/by_axis.hpp"
 
+#include "mechanics/dense.hpp"
 #include "msm/design/minimise.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -123,7 +123,7 @@ std::optional<AxisStiffness> exact_by_axis(const CubicModuli& moduli, double spl
 
 AxisStiffness nearest_by_axis(const CubicModuli& moduli, double split, const CellVertices& vertices) {
   const Elasticity target = elasticity_of(moduli);
-  const Elasticity root = Eigen::SelfAdjointEigenSolver<Elasticity>(in_mandel(target)).operatorInverseSqrt();
+  const Elasticity root = mechanics::inverse_square_root(in_mandel(target));
   const auto relative = [&](const Elasticity& c) -> Elasticity { return root * in_mandel(c) * root; };
   const Vector3d l = mean_edges(vertices);
   const std::array<double, 7> unit = unit_stiffness(l);
@@ -167,7 +167,7 @@ NearestModuli nearest_lattice_moduli(const mechanics::TransverseModuli& m) {
   ModuliVector material, relation; // a lattice has relation . moduli = 0
   material << m.c11, m.c12, m.c13, m.c33, m.c44, m.c66;
   relation << 0, 1, -1, 0, 1, -1;
-  const Mandel root = Eigen::SelfAdjointEigenSolver<Mandel>(elasticity(material)).operatorInverseSqrt();
+  const Mandel root = mechanics::inverse_square_root(elasticity(material));
   Eigen::Matrix<double, 36, 6>
       relative; // columns: what a unit of each modulus adds to C^-1/2 C_lattice C^-1/2
   for (int c = 0; c < 6; ++c) relative.col(c) = (root * elasticity(ModuliVector::Unit(c)) * root).reshaped();
@@ -180,7 +180,7 @@ NearestModuli nearest_lattice_moduli(const mechanics::TransverseModuli& m) {
   NearestModuli nearest{{c[0], c[1], c[2], c[3], c[4], c[5], 0}, errors.norm(), 0};
   nearest.moduli.bulk_modulus =
       1 / elasticity(c).topLeftCorner<3, 3>().ldlt().solve(Eigen::Vector3d::Ones()).sum();
-  nearest.misfit = Eigen::SelfAdjointEigenSolver<Mandel>(errors).eigenvalues().cwiseAbs().maxCoeff();
+  nearest.misfit = mechanics::eigenvalues(errors).cwiseAbs().maxCoeff();
   return nearest;
 }
 

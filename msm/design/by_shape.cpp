@@ -1,8 +1,8 @@
 #include "msm/design/by_shape.hpp"
 
+#include "mechanics/dense.hpp"
 #include "mechanics/larger.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -291,8 +291,7 @@ int count_loose_nodes(const MeshSprings& springs, std::size_t n_nodes) {
     for (const int node : spring.nodes)
       held[index(node)] += spring.stiffness * spring.direction * spring.direction.transpose();
   return static_cast<int>(std::count_if(held.begin(), held.end(), [](const Matrix3d& matrix) {
-    const Vector3d values =
-        Eigen::SelfAdjointEigenSolver<Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+    const Vector3d values = mechanics::eigenvalues(matrix);
     return !(values[0] > 1e-9 * values[2]);
   }));
 }

@@ -1,6 +1,7 @@
 #include "msm/design/cells.hpp"
 
 #include "cases/case/error.hpp"
+#include "mechanics/dense.hpp"
 #include "mechanics/larger.hpp"
 #include "msm/tangent.hpp"
 
@@ -118,8 +119,7 @@ LatticeModuli averaged_moduli(const Elasticity& elasticity) {
 }
 
 Signs signs_at_rest(const CellMatrix& matrix) {
-  const auto eigenvalues =
-      Eigen::SelfAdjointEigenSolver<CellMatrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues().eval();
+  const Eigen::VectorXd eigenvalues = mechanics::eigenvalues(matrix);
   // Far above round-off, far below any spring's share.
   const double zero = 1e-9 * eigenvalues.cwiseAbs().maxCoeff();
   return {(eigenvalues.array() < -zero).count(), (eigenvalues.array().abs() <= zero).count()};
@@ -151,8 +151,8 @@ std::vector<std::string> examine(const CellTerms& terms, const CellVertices& ver
 
 ModuliMisfit moduli_misfit(const Elasticity& lattice, const Elasticity& material) {
   const Constants wanted = constants_of(material);
-  const Eigen::SelfAdjointEigenSolver<Elasticity> solver(lattice, Eigen::EigenvaluesOnly);
-  const double least = solver.eigenvalues().minCoeff(), most = solver.eigenvalues().maxCoeff();
+  const Eigen::VectorXd eigenvalues = mechanics::eigenvalues(lattice);
+  const double least = eigenvalues.minCoeff(), most = eigenvalues.maxCoeff();
   if (!(least > 1e-9 * most))
     return {std::numeric_limits<double>::infinity(),
             fmt::format("some strain of the lattice at rest costs no energy, where the material has {}",

@@ -1,8 +1,8 @@
 #include "cases/case/error.hpp"
+#include "mechanics/dense.hpp"
 #include "msm/design/minimise.hpp"
 #include "msm/design/uniaxial.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -213,10 +213,9 @@ NonlinearFit nonlinear_method(const UniaxialCurve& reference, double edge) {
 Identifiability identifiability(const CellStiffness& stiffness, double edge, const UniaxialCurve& reference) {
   Eigen::MatrixX3d jacobian;
   uniaxial_residuals(stiffness, edge, reference, &jacobian);
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian * stiffness_unit(reference, edge),
-                                              Eigen::ComputeThinV);
-  const Eigen::Vector3d values = svd.singularValues();
-  return {values, svd.matrixV(), values(0) / values(2)};
+  const mechanics::Spectrum parts = mechanics::right_singular(jacobian * stiffness_unit(reference, edge));
+  const Eigen::Vector3d values = parts.values;
+  return {values, parts.vectors, values(0) / values(2)};
 }
 
 } // namespace springproof::msm

@@ -1,8 +1,8 @@
 #include "msm/design/patch.hpp"
 
+#include "mechanics/dense.hpp"
 #include "msm/direct/factorisation.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <cmath>
 #include <numeric>
@@ -98,7 +98,7 @@ double strain_misfit(const Elasticity& lattice, const Elasticity& material) {
   const auto mandel = [&](const Elasticity& c) -> Elasticity {
     return weights.asDiagonal() * c * weights.asDiagonal();
   };
-  const Elasticity root = Eigen::SelfAdjointEigenSolver<Elasticity>(mandel(material)).operatorInverseSqrt();
+  const Elasticity root = mechanics::inverse_square_root(mandel(material));
   return (root * mandel(lattice - material) * root).norm() / std::sqrt(6.);
 }
 

@@ -29,8 +29,8 @@ Matrices cell_matrices(double poissons_ratio) {
 
 compare::EigenspaceAnalysis analyse(double poissons_ratio) {
   const Matrices matrices = cell_matrices(poissons_ratio);
-  return compare::analyse_eigenspaces(compare::solvers().full_spectrum(matrices.fem),
-                                      compare::solvers().full_spectrum(matrices.msm));
+  return compare::analyse_eigenspaces(mechanics::spectrum(matrices.fem),
+                                      mechanics::spectrum(matrices.msm));
 }
 
 Eigen::MatrixXd random_rotation(Eigen::Index n, std::mt19937& random) {
@@ -106,7 +106,7 @@ TEST_CASE("rotating the basis inside degenerate spaces changes nothing", "[verif
 TEST_CASE("SLEPc's spectrum is that of Eigen's self-adjoint solver", "[verification]") {
   const Matrices matrices = cell_matrices(0.35);
   for (const msm::CellMatrix& matrix : {matrices.fem, matrices.msm}) {
-    const compare::Spectrum spectrum = compare::solvers().full_spectrum(matrix);
+    const compare::Spectrum spectrum = mechanics::spectrum(matrix);
     const Eigen::VectorXd expected = Eigen::SelfAdjointEigenSolver<msm::CellMatrix>(matrix).eigenvalues();
     const double round_off = 1e-13 * expected(23);
     CHECK(largest_entry(spectrum.values - expected) <= round_off);
@@ -118,7 +118,7 @@ TEST_CASE("SLEPc's spectrum is that of Eigen's self-adjoint solver", "[verificat
 }
 
 TEST_CASE("a matrix compared with itself has every space equivalent in place", "[verification]") {
-  const compare::Spectrum spectrum = compare::solvers().full_spectrum(cell_matrices(0.3).fem);
+  const compare::Spectrum spectrum = mechanics::spectrum(cell_matrices(0.3).fem);
   const compare::EigenspaceAnalysis analysis = compare::analyse_eigenspaces(spectrum, spectrum);
   const double n = static_cast<double>(analysis.fem_spaces.size());
   CHECK(analysis.h == Approx((n + 1) / 2).epsilon(1e-14)); // sum of i/N
@@ -158,7 +158,7 @@ TEST_CASE("the sparse solver's lowest modes are those of the dense one, six of t
           "[verification]") {
   const Eigen::SparseMatrix<double> matrix = free_cube(2, 1);
   const compare::Spectrum lowest = compare::solvers().lowest_spectrum(matrix, 20);
-  const compare::Spectrum all = compare::solvers().full_spectrum(Eigen::MatrixXd(matrix));
+  const compare::Spectrum all = mechanics::spectrum(Eigen::MatrixXd(matrix));
   const double tolerance = 1e-9 * all.values(80); // 1e-12 on the shifted inverse, times shift to spectrum
   CHECK(largest_entry(lowest.values - all.values.head(20)) <= tolerance);
   CHECK(largest_entry(lowest.values.head(6)) <= tolerance);
