@@ -1,10 +1,10 @@
 #include "msm/grid/grid_system.hpp"
 
 #include "cases/case/error.hpp"
+#include "mechanics/dense.hpp"
 #include "msm/model.hpp"
 #include "tests/support/bodies.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
 using namespace springproof;
@@ -193,7 +193,7 @@ double softest(const msm::grid::Body& body, const msm::grid::Field<double>& disp
     for (std::size_t row = 0; row < free.size(); ++row)
       tangent(Eigen::Index(row), Eigen::Index(column)) = image[free[row]];
   }
-  const Eigen::VectorXd all = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(tangent).eigenvalues();
+  const Eigen::VectorXd all = mechanics::eigenvalues(tangent);
   return all[0] / all[all.size() - 1];
 }
 
