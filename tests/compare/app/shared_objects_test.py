@@ -64,7 +64,8 @@ for expected, words in [
     (set(), ["design", "--young", "0.3", "--poisson", "0.3", "--method", "linear_method"]),
     (set(), ["run", "--only", "msm", "cube.toml"]),
     ({"VTK"}, ["run", "--only", "msm", "--out", "out", "cube.toml"]),
-    (solvers, ["eigen", "--poisson", "0.3"]),
+    (set(), ["eigen", "--poisson", "0.3"]),
+    (solvers, ["eigen", "--poisson", "0.3", "--body", "2"]),
     (solvers, ["run", "--only", "fem", "cube.toml"]),
 ]:
     found = loaded_by(*words)
