@@ -20,8 +20,9 @@ PROGRAM, SOURCE = (str(Path(argument).resolve()) for argument in sys.argv[1:3])
 SHEAR = f"{SOURCE}/cases/sweep/cube_shear.toml"
 TINY = f"{SOURCE}/tests/compare/sweep/tiny.toml"
 # Each takes longer than the first drawing's 0.3 s on any machine.
+LONG_RUN = ["--set", "body.cells=[30,30,30]", "--set", "fem.accuracy=none"]
 COMMANDS = {
-    "run": ["run", SHEAR, "--set", "body.cells=[16,16,16]"],
+    "run": ["run", SHEAR, *LONG_RUN],
     "gate": ["gate", f"{SOURCE}/cases/gates/sheared_cube.toml", "--set", "fem.refine=2"],
     "tables": ["tables", "5.12"],
     "stress": ["stress", "torsion_90"],
@@ -68,7 +69,7 @@ def test_width_and_names(folder):
     for columns in (40, 41):  # the name's characters are of two bytes
         case = folder / "case.toml"
         case.write_text(Path(SHEAR).read_text().replace('name = "sweep-cube-shear"', f'name = "{"ü" * 40}"', 1))
-        status, _, said = on_a_terminal(["run", str(case), "--set", "body.cells=[16,16,16]"], columns)
+        status, _, said = on_a_terminal(["run", str(case), *LONG_RUN], columns)
         assert status == 0 and LINE.search(said) is None and "0 of 1" in said, said
         assert all(len(part.encode()) < columns for part in said.split("\r")), said
 
@@ -77,7 +78,7 @@ def test_names_are_data(folder):
     """A name that a terminal would take for a command is shown, not obeyed."""
     case = folder / "case.toml"
     case.write_text(Path(SHEAR).read_text().replace('name = "sweep-cube-shear"', r'name = "\u009b2J"', 1))
-    status, _, said = on_a_terminal(["run", str(case), "--set", "body.cells=[16,16,16]"])
+    status, _, said = on_a_terminal(["run", str(case), *LONG_RUN])
     assert status == 0 and LINE.search(said) and r"left, \x9b2J" in said and "\x9b" not in said, said
 
 
