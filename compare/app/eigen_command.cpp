@@ -100,8 +100,7 @@ int run(const EigenOptions& asked) {
   if (!options.out.empty()) cases::check_has_vtk(); // for the .vtu
   claim_folder(options.out);
   if (mpi_rank() != 0) return 0;
-  const EigenspaceAnalysis analysis =
-      analyse_eigenspaces(mechanics::spectrum(fem), mechanics::spectrum(msm));
+  const EigenspaceAnalysis analysis = analyse_eigenspaces(mechanics::spectrum(fem), mechanics::spectrum(msm));
   const std::optional<cases::Mesh> body = body_of(options, request.cell);
   std::optional<FreeBodyModes> modes;
   if (body) modes = free_body_modes(assemble(*body, fem), assemble(*body, msm), options.n_modes);
