@@ -46,10 +46,11 @@ function(springproof_tests folder)
   target_compile_definitions(${target} PRIVATE
     SPRINGPROOF_SOURCE_DIR="${CMAKE_SOURCE_DIR}" SPRINGPROOF_PROGRAM="$<TARGET_FILE:springproof>")
   target_link_libraries(${target} PRIVATE ${ARG_LIBRARIES} Catch2::Catch2WithMain)
-  # Programs with the same libraries have the same flags, and share what was parsed once.
+  # Programs with the same libraries have the same flags, and share what was parsed once. Each then waits for the first of them as a
+  # whole, which the sanitizers' build does not have.
   string(MAKE_C_IDENTIFIER "springproof_headers_of_${ARG_LIBRARIES}" headers)
   get_property(first GLOBAL PROPERTY ${headers})
-  if(first)
+  if(first AND NOT SPRINGPROOF_SANITIZE)
     target_precompile_headers(${target} REUSE_FROM ${first})
   else()
     target_precompile_headers(${target} PRIVATE <Eigen/Dense> <catch2/catch.hpp>)

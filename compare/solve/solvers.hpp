@@ -20,7 +20,7 @@ struct SolverFunctions {
   cases::Solution (*solve_by_snes)(const cases::Scene&, const msm::SpringBody&);
   mechanics::Spectrum (*lowest_spectrum)(Eigen::SparseMatrix<double>, int n_pairs);
   mechanics::Spectrum (*lowest_vibrations)(Eigen::SparseMatrix<double> stiffness,
-                                                  Eigen::SparseMatrix<double> mass, int n_pairs);
+                                           Eigen::SparseMatrix<double> mass, int n_pairs);
 };
 
 /// The symbol by which solvers() finds them.

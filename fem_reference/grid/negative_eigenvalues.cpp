@@ -41,8 +41,7 @@ class Lanczos {
         const Eigen::MatrixXd block = projected.topLeftCorner(step, step);
         ritz = mechanics::spectrum((block + block.transpose()) / 2);
         errors = last * ritz.vectors.row(step - 1).transpose().cwiseAbs();
-        if (step == most_steps || !(squared > 0) ||
-            (step >= fewest_steps && is_known(ritz.values, errors)))
+        if (step == most_steps || !(squared > 0) || (step >= fewest_steps && is_known(ritz.values, errors)))
           break;
       }
       if (!(squared > 0)) return 0;
