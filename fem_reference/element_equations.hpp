@@ -17,10 +17,14 @@ class ElementEquations : public mechanics::DynamicProblem {
   virtual bool linear_solver_failed() const { return false; }
 
   /// Merit of a line search: the work, or none where cells have unknowns of their own, while supports still
-  /// move, or when one step is exact.
+  /// move, or when one step is exact. Friction needs a search in any case: full steps go back and forth
+  /// between sticking and slipping. The pressures of cells follow a step to second order, so that the work on
+  /// displacements alone is the slope of the energy.
   mechanics::Merit merit() const override {
-    return has_internal_ || is_linear_ || largest_gap_ > 0 ? mechanics::Merit::none : mechanics::Merit::work;
+    const bool is_saddle = has_internal_ && !has_friction();
+    return is_saddle || is_linear_ || largest_gap_ > 0 ? mechanics::Merit::none : mechanics::Merit::work;
   }
+  virtual bool has_friction() const { return false; }
   void external_force(double time, mechanics::Vector& force) override {
     force = rest();
     for (const mechanics::LoadInTime& load : loads_) load.add(time, force);

@@ -152,6 +152,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
 
   /// The contact with the scene's tools; null: there are none.
   mechanics::Contact* contact() override { return contact_ ? &*contact_ : nullptr; }
+  bool has_friction() const override { return contact_ && contact_->has_friction(); }
 
  private:
   std::size_t n_dofs() const { return discretisation_.constraints.is_constrained.size(); }

@@ -94,6 +94,7 @@ Equilibrium find_equilibrium_in_contact(NonlinearProblem& problem, Contact* cont
   part.first_load_step = part.largest_load_step = 1;
   part.smallest_load_step = std::min(n_steps * settings.smallest_load_step, 1. / 16);
   part.guess.reset();
+  part.may_wander = true; // nodes go one by one from sticking to slipping
   std::optional<Equilibrium> found;
   for (int step = 1; step <= n_steps; ++step) {
     part.from = load(step - 1);

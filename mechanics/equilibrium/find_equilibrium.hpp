@@ -30,6 +30,8 @@ struct EquilibriumSettings {
   std::optional<int> enough_newton_per_step = {};
   /// Whether a full step that halves the residual at least is seen as a gain without its energy.
   bool takes_full_steps = false;
+  /// Whether Newton's method may use up its iterations where half of them have not gained a factor of ten.
+  bool may_wander = false;
   int max_load_steps = 400;
   int max_newton_iterations = 4000;         ///< limit over the whole path
   long max_relaxation_iterations = 1000000; ///< limit for an explicit relaxation

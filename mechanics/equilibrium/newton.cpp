@@ -103,7 +103,8 @@ bool Newton::solve(Vector& at, double load_factor, Convexity fallback, int itera
     if (iteration == 0) norm_at_first = norm;
     // A load step that succeeds has gained a hundred times by then; one that wanders goes on wandering. Where
     // an energy falls, the residual may well grow on the way.
-    if (problem_.merit() != Merit::energy && iteration == max_iterations / 2 && norm > 0.1 * norm_at_first)
+    const bool may_wander = settings_.may_wander || problem_.merit() == Merit::energy;
+    if (!may_wander && iteration == max_iterations / 2 && norm > 0.1 * norm_at_first)
       return fail("Newton's method does not converge");
     if (norm_before > 0) {
       const double ratio = norm / norm_before;

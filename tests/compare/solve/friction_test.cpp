@@ -100,10 +100,13 @@ TEST_CASE("a plane that sticks to a block takes its top along", "[verification]"
 TEST_CASE("a ball that is pressed in sideways rubs no node by more than the law allows", "[verification]") {
   constexpr double friction = 0.3;
   const Vector3d centre(2.1, 2, 5.6);
+  const std::string element = GENERATE(as<std::string>{}, "q1", "q1_bbar");
+  CAPTURE(element);
   const Rubbed pressed = rubbed(block_between_walls(
       fmt::format("[[tool]]\nname = 'tool'\nshape = 'sphere'\ncentre = [2, 2, 6]\nradius = 3\n"
                   "displacement = [0.1, 0, -0.4]\nfriction = {}\nsteps = 4\n",
-                  friction)));
+                  friction),
+      element));
   for (const Answer* answer : {&pressed.fem, &pressed.msm}) {
     const cases::ToolContact& tool = answer->solution.tools.front();
     CHECK(tool.force.x() > 0);
