@@ -6,6 +6,7 @@
 #include "compare/measure/measure.hpp"
 #include "compare/solve/estimate.hpp"
 #include "mechanics/dense.hpp"
+#include "mechanics/larger.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -87,7 +88,7 @@ bool is_confirmed(const StudiedMeasure& measure, double wanted_percent) {
   const std::size_t n = values.size();
   double largest = 0;
   for (std::size_t i = n > 3 ? n - 3 : 1; i < n; ++i)
-    largest = std::max(largest, std::abs(values[i] - values[i - 1]));
+    largest = mechanics::larger(largest, std::abs(values[i] - values[i - 1]));
   const double percent = 100 * largest / std::abs(values.back());
   return percent <= (n > 3 ? wanted_percent : wanted_percent / 100);
 }
