@@ -1,5 +1,6 @@
 #include "mechanics/dense.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
@@ -14,6 +15,10 @@ Eigen::VectorXd eigenvalues(const DenseMatrix& matrix) {
 Spectrum spectrum(const DenseMatrix& matrix) {
   const Solver solver(matrix);
   return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Eigen::VectorXd solved(const DenseMatrix& matrix, const Eigen::Ref<const Eigen::VectorXd>& right_side) {
+  return matrix.ldlt().solve(right_side);
 }
 
 Eigen::MatrixXd inverse_square_root(const DenseMatrix& matrix) {

@@ -20,6 +20,8 @@ struct Spectrum {
 Eigen::VectorXd eigenvalues(const DenseMatrix& matrix);
 /// Eigenvalues and eigenvectors of a symmetric matrix.  @param matrix  only its lower triangle is read
 Spectrum spectrum(const DenseMatrix& matrix);
+/// The solution x of A x = b.  @param matrix  A, symmetric positive definite; only its lower triangle is read
+Eigen::VectorXd solved(const DenseMatrix& matrix, const Eigen::Ref<const Eigen::VectorXd>& right_side);
 /// A^-1/2 of a symmetric positive definite A.  @param matrix  only its lower triangle is read
 Eigen::MatrixXd inverse_square_root(const DenseMatrix& matrix);
 /// Singular values in descending order.

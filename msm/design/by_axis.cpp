@@ -173,13 +173,13 @@ NearestModuli nearest_lattice_moduli(const mechanics::TransverseModuli& m) {
   for (int c = 0; c < 6; ++c) relative.col(c) = (root * elasticity(ModuliVector::Unit(c)) * root).reshaped();
   // least |relative change|² with relation . (material + change) = 0
   const Mandel normal = relative.transpose() * relative;
-  const ModuliVector towards = normal.ldlt().solve(relation);
+  const ModuliVector towards = mechanics::solved(normal, relation);
   const ModuliVector change = -relation.dot(material) / relation.dot(towards) * towards;
   const ModuliVector c = material + change;
   const Mandel errors = root * elasticity(change) * root;
   NearestModuli nearest{{c[0], c[1], c[2], c[3], c[4], c[5], 0}, errors.norm(), 0};
   nearest.moduli.bulk_modulus =
-      1 / elasticity(c).topLeftCorner<3, 3>().ldlt().solve(Eigen::Vector3d::Ones()).sum();
+      1 / mechanics::solved(elasticity(c).topLeftCorner(3, 3), Eigen::Vector3d::Ones()).sum();
   nearest.misfit = mechanics::eigenvalues(errors).cwiseAbs().maxCoeff();
   return nearest;
 }

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <fmt/format.h>
 #include <functional>
 #include <limits>
@@ -217,13 +216,17 @@ struct DynamicalMatrix {
   }
   /// Smallest eigenvalue over |q h|².  @param phase  q h per axis, radians
   double smallest(const Eigen::Vector3d& phase) const {
-    Eigen::Matrix3cd sum = Eigen::Matrix3cd::Zero();
+    // A Hermitian A + iB has the eigenvalues, each twice, of the real [A -B; B A].
+    Eigen::Matrix<double, 6, 6> sum = Eigen::Matrix<double, 6, 6>::Zero();
     for (int n = 0; n < 27; ++n) {
       const Eigen::Vector3d d(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
-      sum += blocks[static_cast<std::size_t>(n)] * std::polar(1.0, phase.dot(d));
+      const Eigen::Matrix3d& block = blocks[static_cast<std::size_t>(n)];
+      const double angle = phase.dot(d);
+      sum.topLeftCorner<3, 3>() += std::cos(angle) * block;
+      sum.bottomLeftCorner<3, 3>() += std::sin(angle) * block;
     }
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3cd>(sum, Eigen::EigenvaluesOnly).eigenvalues()(0) /
-           phase.squaredNorm();
+    sum.bottomRightCorner<3, 3>() = sum.topLeftCorner<3, 3>();
+    return mechanics::eigenvalues(sum)(0) / phase.squaredNorm();
   }
 };
 
