@@ -41,7 +41,7 @@ build)
   (cd "$source" && cmake --preset sanitize -B "$build") >&2
   cmake --build "$build" --target springproof springproof_cases_tests springproof_msm_tests springproof_clients_tests >&2 ;;
 cases)
-  ./springproof_cases_tests "~[verification]~[release]~[little_memory]" ;;
+  SPRINGPROOF_DAMAGED_FILES=100 ./springproof_cases_tests "~[verification]~[release]~[little_memory]" ;;
 springs)
   ./springproof_msm_tests "~[verification]~[release]~[little_memory]"
   ./springproof_msm_tests "-#" "[#model_test][verification]" ;;
