@@ -142,6 +142,7 @@ class EquilibriumEquations : public mechanics::petsc::DistributedProblem<Element
     return !contact_ || contact_->is_way_open(displacements(from), from_time, displacements(to), step_->time);
   }
 
+  void follow_tools(double from_time, const State& from, State& guess) const override;
   std::vector<cases::ToolContact> tools_at(double time, const State& at) const override;
 
   /// See Assembly.

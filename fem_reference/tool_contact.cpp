@@ -106,6 +106,16 @@ void EquilibriumEquations::add_contact(const State& state, double load_factor, W
   check(MatAssemblyEnd(assembly_.tangent(), MAT_FINAL_ASSEMBLY));
 }
 
+void EquilibriumEquations::follow_tools(double from_time, const State& from, State& guess) const {
+  if (!contact_) return;
+  contact_->for_each_way_along(displacements(from), from_time, displacements(guess), step_->time,
+                               [&](int node, const Vector3d& way) {
+                                 for (int c = 0; c < 3; ++c)
+                                   if (!discretisation_.is_held(discretisation_.unknown(index(3 * node + c))))
+                                     guess[3 * node + c] += way[c];
+                               });
+}
+
 std::vector<cases::ToolContact> EquilibriumEquations::tools_at(double time, const State& at) const {
   if (!contact_) return {};
   return contact_->found(displacements(at), time);

@@ -115,6 +115,18 @@ void MovingSprings::external_force(double time, Vector& force) {
 void MovingSprings::set_step(const mechanics::StepTerms& terms) {
   terms_.emplace(terms);
   diagonal_ = terms.mass * entries_.mass + terms.damping * entries_.mass_damping;
+  seen_at_.resize(0);
+}
+
+void MovingSprings::end_step(const Vector& at, double /*length*/) {
+  if (!contact_) return;
+  largest_press_ = std::max(largest_press_, size_of_press(at));
+  if (seen_at_.size() != at.size() || seen_at_ != at) // a step ends where Newton's method was last
+    residual(at, 0, mechanics::Expect::residual, unbalanced_);
+  else
+    unbalanced_ = seen_;
+  end_ = terms_->time;
+  contact_->end_step(displacements(at), terms_->time);
 }
 
 std::optional<mechanics::NonlinearProblem::Solved> MovingSprings::solve_at(Vector& at, double load_factor) {
@@ -136,9 +148,13 @@ void MovingSprings::residual(const Vector& at, double /*load_factor*/, mechanics
       for (int c = 0; c < 3; ++c)
         if (const Eigen::Index entry = node.entries[cases::index(c)]; entry >= 0)
           residual[entry] += node.force[c];
-  if (!joins_nodes()) return;
-  moved_ = terms_->origin - at;
-  add_joined(terms_->mass, terms_->damping, moved_, residual);
+  if (joins_nodes()) {
+    moved_ = terms_->origin - at;
+    add_joined(terms_->mass, terms_->damping, moved_, residual);
+  }
+  if (!contact_) return;
+  seen_at_ = at;
+  seen_ = residual;
 }
 
 /// Inertia joins free degrees of freedom and supports that move: half of the form in the former, all of what
@@ -171,6 +187,18 @@ mechanics::DisplacementAt MovingSprings::displacements(const Vector& at) const {
         value[c] = at[entry];
     return value;
   };
+}
+
+void MovingSprings::follow_tools(double from_time, const Vector& from, Vector& guess) const {
+  if (!contact_) return;
+  contact_->for_each_way_along(displacements(from), from_time, displacements(guess), terms_->time,
+                               [&](int node, const Eigen::Vector3d& way) {
+                                 for (int c = 0; c < 3; ++c)
+                                   if (const Eigen::Index entry =
+                                           entries_of_node_[cases::index(node)][cases::index(c)];
+                                       entry >= 0 && entries_.free[entry] != 0)
+                                     guess[entry] += way[c];
+                               });
 }
 
 double MovingSprings::size_of_press(const Vector& at) const {

@@ -192,13 +192,8 @@ class MovingSprings : public mechanics::DynamicProblem {
     return !contact_ ||
            contact_->is_way_open(displacements(from), from_time, displacements(to), terms_->time);
   }
-  void end_step(const Vector& at, double /*length*/) override {
-    if (!contact_) return;
-    largest_press_ = std::max(largest_press_, size_of_press(at));
-    residual(at, 0, mechanics::Expect::residual, unbalanced_);
-    end_ = terms_->time;
-    contact_->end_step(displacements(at), terms_->time);
-  }
+  void follow_tools(double from_time, const Vector& from, Vector& guess) const override;
+  void end_step(const Vector& at, double length) override;
   /// Supports of a method of its own are where the step has them, and take nothing along.
   bool moves_supports() const override { return !method_ && springs_.moves_supports(); }
 
@@ -284,11 +279,12 @@ class MovingSprings : public mechanics::DynamicProblem {
   StepMethod method_, fresh_method_; ///< the latter as it was before the first step
   Vector diagonal_;
   std::optional<Pull> pull_;
-  double largest_pull_ = 0;                   ///< N
-  double largest_press_ = 0;                  ///< N, of tools at the end of a step
-  Vector unbalanced_;                         ///< N, what the last step has left, of a body with tools
-  std::optional<double> end_;                 ///< s, of that step; none: it is not known
-  std::optional<mechanics::Contact> contact_; ///< none: no tool presses the body
+  double largest_pull_ = 0;   ///< N
+  double largest_press_ = 0;  ///< N, of tools at the end of a step
+  Vector seen_at_, seen_;     ///< where this step's residual was last asked for, and it; of a body with tools
+  Vector unbalanced_;         ///< N, what the last step has left, of a body with tools
+  std::optional<double> end_; ///< s, of that step; none: it is not known
+  std::optional<mechanics::Contact> contact_;                ///< none: no tool presses the body
   std::vector<std::array<Eigen::Index, 3>> entries_of_node_; ///< beside it
   Vector moved_, product_, added_; ///< since the step's origin; and forces of that, N
 };

@@ -259,6 +259,17 @@ bool Contact::is_way_open(const DisplacementAt& from, double load_from, const Di
   return true;
 }
 
+void Contact::for_each_way_along(const DisplacementAt& from, double load_from, const DisplacementAt& to,
+                                 double load_to,
+                                 const std::function<void(int node, const Vector3d& way)>& action) const {
+  for_each_point(from, load_from, [&](const Touch& touch) {
+    if (!(touch.pressure > 0)) return;
+    const Vector3d place = touch.point.rest + to(touch.point.node) - sides_[touch.side].tool.place(load_to);
+    const SignedDistance there = distances_[touch.side](place);
+    action(touch.point.node, (touch.distance.value - there.value) * there.normal);
+  });
+}
+
 std::vector<cases::ToolContact> Contact::found(const DisplacementAt& displacement, double load_factor,
                                                const DisplacementAt& unbalanced) const {
   std::vector<cases::ToolContact> all(sides_.size());

@@ -104,6 +104,11 @@ class Contact {
   /// side and than both its ends.
   bool is_way_open(const DisplacementAt& from, double load_from, const DisplacementAt& to,
                    double load_to) const;
+  /// Calls action(node, way) for every point that a tool presses in one state. The way (mm) leads the point
+  /// from its place in another state to where it is as deep in the tool as in the first.
+  void for_each_way_along(const DisplacementAt& from, double load_from, const DisplacementAt& to,
+                          double load_to,
+                          const std::function<void(int node, const Eigen::Vector3d& way)>& action) const;
   /// Counts the changes of multipliers.
   int revision() const { return revision_; }
 

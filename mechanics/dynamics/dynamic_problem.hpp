@@ -87,6 +87,8 @@ class DynamicProblem : public NonlinearProblem {
   /// Makes a material's memory that of a body that has always been at this displacement. Friction takes the
   /// body to be at rest.
   virtual void begin_motion(const Vector& /*displacement*/) {}
+  /// Takes what tools press in one state along with them, in a guess of the state at the step's time.
+  virtual void follow_tools(double /*from_time*/, const Vector& /*from*/, Vector& /*guess*/) const {}
   /// Brings what a step's equation holds, the bounds of friction, to its solution.
   /// @return whether they agreed; otherwise the equation is another one now
   virtual bool settle(const Vector& /*solution*/) { return true; }

@@ -27,7 +27,6 @@ IntegrationSettings in_real_time(int linear_iterations) {
 IntegrationSettings to_few_digits(double tolerance) {
   IntegrationSettings settings;
   settings.newton.tolerance = tolerance;
-  settings.newton.first_forcing = 0.1;
   settings.newton.takes_full_steps = true;
   settings.in_single_precision = true;
   return settings;
@@ -156,6 +155,7 @@ bool TimeIntegrator::solve(const StepTerms& terms, const StepCoefficients& c, do
          {is_smooth_ ? Guess::acceleration_stays : Guess::velocity_stays, Guess::displacement_stays}) {
       predict(c, to, guess);
       if (problem_.moves_supports()) take_along();
+      if (guess != Guess::displacement_stays) problem_.follow_tools(now_.time, now_.displacement, place_);
       is_solved = find_place();
       if (is_solved) break;
     }
@@ -219,9 +219,10 @@ void TimeIntegrator::take_along() {
 }
 
 void TimeIntegrator::finish_step(const StepCoefficients& c, double to) {
-  place_ -= now_.displacement; // w - u0
   next_.time = to;
-  next_.displacement = now_.displacement + (1 / c.place) * place_;
+  next_.displacement = place_;
+  place_ -= now_.displacement; // w - u0
+  if (c.place != 1) next_.displacement = now_.displacement + (1 / c.place) * place_;
   problem_.supports_at(to, next_.displacement);
   if (c.known_velocity.is_none() && c.place == 1) {
     next_.velocity = c.damping * place_;

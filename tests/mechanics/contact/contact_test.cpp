@@ -6,6 +6,7 @@
 #include "tests/support/tool_surfaces.hpp"
 
 #include <catch2/catch.hpp>
+#include <set>
 
 using namespace springproof;
 
@@ -55,6 +56,30 @@ TEST_CASE("surface points have the area of what a tool may touch, without planes
   half.symmetry = {{bodies::region("x-"), {true, false, false}}};
   half.tools = {tool};
   CHECK(area(cases::make_scene(half)) == Approx(2 * (4 * 3 + 4 * 2 + 3 * 2) - 3 * 2));
+}
+
+TEST_CASE("points that a tool presses are led to where they are as deep in it when it has moved") {
+  cases::Tool tool = quarter_block::pressed_down(cases::tools::Sphere{3}, {2.1, 1.4, 5}, 0.25);
+  Contact contact(mechanics::tool_sides(pressed_box({tool})));
+  const auto& points = contact.sides().front().points;
+  const auto depth = [&](int node, const Vector3d& by, double load_factor) {
+    for (const auto& point : points)
+      if (point.node == node) return 3 - (point.rest + by - tool.place(load_factor)).norm();
+    FAIL("the tool does not touch node " << node);
+    return 0.;
+  };
+  const Vector3d before(0.01, 0.02, 0.03), after(-0.1, 0.05, -0.2);
+  std::set<int> pressed, led;
+  contact.for_each_pressed([&](int) { return before; }, 1,
+                           [&](const Contact::Pressed& one) { pressed.insert(one.node); });
+  REQUIRE(pressed.size() > 1);
+  contact.for_each_way_along([&](int) { return before; }, 1, [&](int) { return after; }, 0.4,
+                             [&](int node, const Vector3d& way) {
+                               led.insert(node);
+                               CHECK(depth(node, after, 0.4) < 0); // the tool has gone from it
+                               CHECK(depth(node, after + way, 0.4) == Approx(depth(node, before, 1)));
+                             });
+  CHECK(led == pressed);
 }
 
 TEST_CASE("forces of tools are minus the slope of their potential, before and after multipliers change") {
