@@ -18,7 +18,7 @@ mechanics::IntegrationSettings steps_of(const cases::Scene& scene, const msm::Sp
   mechanics::IntegrationSettings settings;
   settings.newton.tolerance = 1e-6;
   if (!scene.definition.tools.empty())
-    settings = mechanics::to_few_digits(3e-4); // forces are those that the body bears: they have three digits
+    settings = mechanics::to_few_digits(1e-3); // forces are those that the body bears: they have three digits
   if (const auto enough = scene.definition.msm.iterations_per_step)
     settings = mechanics::in_real_time(*enough);
   settings.max_halvings = 4;

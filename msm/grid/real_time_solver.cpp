@@ -41,7 +41,7 @@ void RealTimeSolver::multiply(Clamp clamp, const Field<float>& direction, Field<
   if (masses_) masses_->add_product(scale_ * mass_factor_, scale_ * damping_factor_, direction, product);
   add_product(product, diagonal_, direction, n_threads_);
   if (damping_) {
-    damping_->product(Clamp::no, rest_, direction, damped_);
+    damping_->product(Clamp::yes, rest_, direction, damped_); // the same at rest, in less time
     add(product, static_cast<float>(damping_factor_), damped_, n_threads_);
   }
   add_blocks(blocks_, body_.layout.size, direction, product);

@@ -218,7 +218,7 @@ void beside_tool(benchmark::State& state) {
                        {msm::Path::automatic, static_cast<int>(state.range(0)), {}, {}});
   const msm::Points rest(scene.mesh.nodes.size(), Eigen::Vector3d::Zero());
   const auto n_unknowns = static_cast<double>(3 * body.problem().mesh.nodes.size());
-  run_steps(state, body.motion(), body.to_vector(rest), n_unknowns, step, mechanics::to_few_digits(3e-4));
+  run_steps(state, body.motion(), body.to_vector(rest), n_unknowns, step, mechanics::to_few_digits(1e-3));
 }
 
 } // namespace
