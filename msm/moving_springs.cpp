@@ -121,10 +121,10 @@ void MovingSprings::set_step(const mechanics::StepTerms& terms) {
 void MovingSprings::end_step(const Vector& at, double /*length*/) {
   if (!contact_) return;
   largest_press_ = std::max(largest_press_, size_of_press(at));
-  if (seen_at_.size() != at.size() || seen_at_ != at) // a step ends where Newton's method was last
+  if (seen_at_.size() != at.size() || seen_at_ != at)
     residual(at, 0, mechanics::Expect::residual, unbalanced_);
   else
-    unbalanced_ = seen_;
+    unbalanced_ = seen_; // a step ends where Newton's method was last
   end_ = terms_->time;
   contact_->end_step(displacements(at), terms_->time);
 }
