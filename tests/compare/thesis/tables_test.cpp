@@ -33,7 +33,8 @@ std::string words_of(const Json& entry) {
 // The bar and the cells: the cheapest tables, yet both kinds of model and the pool are in them.
 TEST_CASE("the same tables come out byte for byte, on one worker and on three", "[long]") {
   const TemporaryFolder folder;
-  const fs::path one = folder.path / "one", three = folder.path / "three";
+  // Names of one length: the text is folded where its lines are full.
+  const fs::path one = folder.path / "workers_1", three = folder.path / "workers_3";
   const auto without = [](std::string text, const std::string& name) { // the folder, which the text names
     const std::size_t at = text.find(name);
     REQUIRE(at != std::string::npos);
