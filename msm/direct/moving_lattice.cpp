@@ -8,6 +8,12 @@ namespace {
 
 using Matrix = Tangent::Matrix;
 
+bool has_terms(const Lattice& lattice) {
+  bool has = false;
+  for_each_kind(lattice, [&](const auto& terms) { has = has || !terms.empty(); });
+  return has;
+}
+
 /// The inertia that joins nodes, in the order of the direct system.
 /// @param cell_mass  consistent masses, or those times mass_damping    @param damping  damping by stiffness
 Matrix joined(const Problem& problem, const std::vector<double>& cell_mass, const Lattice* damping) {
@@ -15,7 +21,7 @@ Matrix joined(const Problem& problem, const std::vector<double>& cell_mass, cons
   const auto masses = masses_beyond_lumped(problem.mesh, cell_mass);
   Matrix all(n_dofs, n_dofs);
   all.setFromTriplets(masses.begin(), masses.end());
-  if (damping && !damping->links.empty()) {
+  if (damping && has_terms(*damping)) {
     Tangent whole(*damping, std::vector<bool>(problem.is_constrained.size()));
     const Matrix lower = whole.assemble(damping->rest, Clamp::no);
     all += Matrix(lower.selfadjointView<Eigen::Lower>());

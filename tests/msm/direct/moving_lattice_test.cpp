@@ -35,10 +35,11 @@ struct Moving {
   std::unique_ptr<msm::SpringSystem> statics;
   std::unique_ptr<msm::MovingSprings> motion;
 
-  explicit Moving(const cases::Scene& scene) : problem(msm::make_moving_problem(scene)) {
-    problem.lattice = msm::make_lattice(scene.mesh, {hybrid_springs});
+  explicit Moving(const cases::Scene& scene, const msm::SpringBody& springs = {hybrid_springs})
+      : problem(msm::make_moving_problem(scene)) {
+    problem.lattice = msm::make_lattice(scene.mesh, springs);
     statics = msm::make_direct_system(problem);
-    const msm::SpringBody damping = msm::damping_springs(scene, {hybrid_springs});
+    const msm::SpringBody damping = msm::damping_springs(scene, springs);
     motion = msm::make_moving_lattice(problem, *statics,
                                       msm::make_inertia(scene, msm::make_lattice(scene.mesh, damping)));
   }
@@ -101,6 +102,26 @@ TEST_CASE("a damped lattice comes to rest in its static equilibrium", "[verifica
     const Vector expected = mechanics::find_equilibrium(*statics, lattice.rest(), "lattice").state;
     CHECK(expected.norm() > 0.01);
     CHECK((motion.now().displacement - expected).norm() <= 1e-6 * expected.norm());
+  }
+}
+
+TEST_CASE("springs of every kind are damped in proportion to their stiffness") {
+  msm::CellTerms tetrahedra; // as design = "biquadratic" has them, and nothing else
+  for (const std::array<int, 4>& own :
+       {std::array<int, 4>{0, 1, 2, 4}, {1, 3, 2, 7}, {1, 4, 5, 7}, {2, 4, 7, 6}, {1, 2, 4, 7}})
+    tetrahedra.tetrahedra.push_back({own, 0.02, 0.03});
+  for (const msm::SpringBody& springs :
+       {msm::SpringBody{hybrid_springs}, msm::SpringBody{msm::BodyTerms{{tetrahedra}}}}) {
+    Moving damped(two_cells(true, 0, 0.02), springs), undamped(two_cells(true, 0, 0), springs);
+    const Vector rest = damped.rest(), at = 1e-7 * random_vector(rest.size());
+    const auto residual = [&](Moving& lattice, const Vector& there) -> Vector {
+      lattice.motion->set_step({0, 1e4, rest, rest, rest, 1});
+      return lattice.motion->residual(there, 0, mechanics::Expect::residual);
+    };
+    const Vector elastic = residual(undamped, rest) - residual(undamped, at),
+                 damping = residual(undamped, at) - residual(damped, at);
+    CHECK(elastic.norm() > 0);
+    CHECK((damping - 1e4 * 0.02 * elastic).norm() <= 1e-5 * damping.norm());
   }
 }
 
