@@ -33,4 +33,15 @@ std::vector<FaceNodes> touched_faces(const Scene& scene, const Tool& tool) {
   return faces;
 }
 
+double shortest_side(const Scene& scene, const Tool& tool) {
+  double shortest = INFINITY;
+  for (const FaceNodes& face : touched_faces(scene, tool))
+    for (std::size_t n = 0; n < face.size(); ++n) {
+      const Eigen::Vector3d side =
+          scene.mesh.nodes[index(face[(n + 1) % face.size()])] - scene.mesh.nodes[index(face[n])];
+      shortest = std::min(shortest, side.norm());
+    }
+  return shortest;
+}
+
 } // namespace springproof::cases

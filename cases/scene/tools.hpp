@@ -15,4 +15,7 @@ void read_surfaces(std::vector<Tool>& tools, std::vector<std::string>& remarks);
 /// @throws InputError, at the region, if it has none
 std::vector<FaceNodes> touched_faces(const Scene& scene, const Tool& tool);
 
+/// The shortest side of these faces, mm.
+double shortest_side(const Scene& scene, const Tool& tool);
+
 } // namespace springproof::cases

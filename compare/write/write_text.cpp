@@ -3,6 +3,7 @@
 #include "cases/case/names.hpp"
 #include "cases/case/read_case.hpp"
 #include "cases/scene/loads.hpp"
+#include "cases/scene/tools.hpp"
 #include "compare/measure/measure.hpp"
 #include "compare/provenance/print.hpp"
 #include "compare/table/table.hpp"
@@ -318,6 +319,35 @@ bool is_norm(const MeasuredValue& measured, const cases::Case& definition) {
 
 namespace {
 
+/// Radius of a tool; of a plane and of a file's surface none is known.
+std::optional<double> radius_of(const cases::Tool& tool) {
+  return std::visit(
+      [](const auto& shape) -> std::optional<double> {
+        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, cases::tools::Sphere> ||
+                      std::is_same_v<std::decay_t<decltype(shape)>, cases::tools::Cylinder> ||
+                      std::is_same_v<std::decay_t<decltype(shape)>, cases::tools::Punch>)
+          return shape.radius;
+        return std::nullopt;
+      },
+      tool.shape);
+}
+
+/// Tools that are thinner than the faces they may touch: nodes go round such a tool to its other side.
+std::vector<std::string> tools_thinner_than_cells(const cases::Scene& scene) {
+  std::vector<std::string> all;
+  for (const cases::Tool& tool : scene.definition.tools) {
+    const std::optional<double> radius = radius_of(tool);
+    if (!radius) continue;
+    if (const double side = cases::shortest_side(scene, tool); *radius < side)
+      all.push_back(
+          fmt::format("the tool '{}' has a radius of {:g} mm, less than every side of the faces that "
+                      "it may touch, {:g} mm: nodes go round it, and its force is wrong; refine the "
+                      "mesh",
+                      tool.name, *radius, side));
+  }
+  return all;
+}
+
 /// Whether a tool touches the body in a solution, at any time of a motion.
 bool touches(const cases::Solution& solution, std::size_t tool, std::size_t n_tools) {
   const auto& in_time = solution.trajectory ? solution.trajectory->tools : solution.tools;
@@ -352,6 +382,7 @@ std::vector<std::string> warnings_of(const Comparison& comparison) {
   add(comparison.scene.remarks);
   add(comparison.answers.msm_warnings);
   if (const auto& design = comparison.answers.design) add(design->warnings);
+  add(tools_thinner_than_cells(comparison.scene));
   add(tools_without_touch(comparison));
   return all;
 }

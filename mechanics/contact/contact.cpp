@@ -238,7 +238,6 @@ bool Contact::has_friction() const {
 
 bool Contact::is_way_open(const DisplacementAt& from, double load_from, const DisplacementAt& to,
                           double load_to) const {
-  constexpr int n_places = 16; // on a way
   for (std::size_t side = 0; side < sides_.size(); ++side) {
     const auto& [tool, points] = sides_[side];
     const Vector3d before = tool.place(load_from), after = tool.place(load_to);
@@ -248,12 +247,17 @@ bool Contact::is_way_open(const DisplacementAt& from, double load_from, const Di
                      end = point.rest + to(point.node) - after;
       if (box.exteriorDistance(begin) > (end - begin).norm()) continue; // far from a file's surface
       const auto distance = [&](double part) { return distances_[side](begin + part * (end - begin)).value; };
-      const double at_begin = distance(0), at_end = distance(1),
-                   allowed = std::min({0., at_begin, at_end}) - allowed_passage * std::sqrt(point.area);
+      const double at_begin = distance(0), at_end = distance(1), way = (end - begin).norm(),
+                   passage = allowed_passage * std::sqrt(point.area),
+                   allowed = std::min({0., at_begin, at_end}) - passage;
       // no place between is nearer to the tool than this
-      if ((at_begin + at_end - (end - begin).norm()) / 2 >= allowed) continue;
-      for (int n = 1; n < n_places; ++n)
-        if (distance(n / static_cast<double>(n_places)) < allowed) return false;
+      if ((at_begin + at_end - way) / 2 >= allowed) continue;
+      // A distance changes by at most the way: no place is left out that is deeper by a quarter.
+      for (double gone = at_begin - allowed; gone < way;) {
+        const double above = distance(gone / way) - allowed;
+        if (above < 0) return false;
+        gone += std::max(above, passage / 4);
+      }
     }
   }
   return true;
@@ -299,9 +303,16 @@ std::vector<cases::ToolContact> Contact::found(const DisplacementAt& displacemen
 }
 
 double contact_modulus(const cases::Scene& scene) {
+  const std::vector<cases::Material> materials = cases::materials_of(scene.definition);
   double largest = 0;
-  for (const cases::Material& material : cases::materials_of(scene.definition))
-    largest = std::max(largest, std::visit([](const auto& one) { return modulus_of(one); }, material));
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    const double at_rest = std::visit([](const auto& one) { return modulus_of(one); }, materials[m]);
+    double g = 0, k = 0; // a memory makes a body stiffer against what comes at once
+    if (scene.definition.dynamics)
+      for (const cases::PronyTerm& term : cases::dynamics_of(scene.definition, m).prony)
+        g += term.g, k += term.k;
+    largest = std::max(largest, at_rest / (1 - std::max(g, k)));
+  }
   return (scene.definition.dynamics ? 100 : 10) * largest;
 }
 

@@ -229,6 +229,22 @@ TEST_CASE("a tool that touches nothing is told of, and one that does is not") {
   CHECK_FALSE(warns(6));
 }
 
+TEST_CASE("a tool that is thinner than the faces it may touch is told of") {
+  const auto warns = [](double radius) {
+    const std::string text = fmt::format("[[tool]]\nname = 'tool'\nshape = 'sphere'\ncentre = [0, 0, {}]\n"
+                                         "radius = {}\ndisplacement = [0, 0, -0.2]\n",
+                                         3 + radius, radius);
+    Comparison comparison;
+    comparison.scene = cases::make_scene(case_text::read_text(block(text)));
+    const auto all = warnings_of(comparison);
+    return std::any_of(all.begin(), all.end(), [](const std::string& warning) {
+      return warning.find("the tool 'tool' has a radius of") != std::string::npos;
+    });
+  };
+  CHECK(warns(0.3));
+  CHECK_FALSE(warns(3));
+}
+
 TEST_CASE("what knows no tools refuses a case with one, or says why it is skipped") {
   const cases::Case definition = case_text::read_text(block(plane(0.3)));
   const cases::Scene scene = cases::make_scene(definition);

@@ -209,6 +209,17 @@ TEST_CASE("two tools on a node share what a step has left there") {
   CHECK(force({tool, other}, left) - force({tool, other}, {}) == Approx(corrected));
 }
 
+TEST_CASE("a penalty in time is of the modulus that a memory has at once") {
+  cases::Case definition;
+  definition.body = cases::Box{{1, 1, 1}, {1, 1, 1}};
+  definition.material_dynamics.prony = {{0.5, 0.1, 10}, {0.4, 0.1, 0.1}};
+  cases::Scene scene = cases::make_scene(definition);
+  const double modulus = std::get<cases::LinearElastic>(definition.material).youngs_modulus;
+  CHECK(mechanics::contact_modulus(scene) == Approx(10 * modulus));
+  scene.definition.dynamics = cases::Dynamics{};
+  CHECK(mechanics::contact_modulus(scene) == Approx(1000 * modulus));
+}
+
 TEST_CASE("a way is open outside a tool and into its surface, not through an edge or from side to side") {
   const auto is_open = [](const cases::tools::Kind& shape, const Vector3d& from, const Vector3d& to) {
     const mechanics::SurfacePoint point{0, from, 1, 1, Vector3d::UnitZ()}; // on a face with sides of 1 mm
@@ -225,4 +236,8 @@ TEST_CASE("a way is open outside a tool and into its surface, not through an edg
   const cases::tools::Kind ball = cases::tools::Sphere{0.5};
   CHECK_FALSE(is_open(ball, {0.1, 0, -0.6}, {0.1, 0, 0.5}));
   CHECK(is_open(ball, {0.3, 0, -0.4}, {0.4, 0, -0.3})); // around it
+  // Ways that are long beside the tool, and do not end where they are equal on both sides.
+  CHECK_FALSE(is_open(ball, {0.1, 0, -3.3}, {0.1, 0, 29.1}));
+  CHECK_FALSE(is_open(ball, {0.1, 0, -29.1}, {0.1, 0, 3.3}));
+  CHECK(is_open(ball, {0.51, 0, -3.3}, {0.51, 0, 29.1})); // past it
 }
