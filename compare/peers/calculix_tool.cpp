@@ -1,10 +1,12 @@
 #include "compare/peers/calculix_tool.hpp"
 
+#include "cases/case/error.hpp"
 #include "cases/scene/tools.hpp"
 #include "mechanics/contact/signed_distance.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <functional>
 #include <map>
 
@@ -17,6 +19,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double facet_depth = 1e-3; ///< how far a facet is below the surface, relative to the indentation
+constexpr int most_facets = 1000;    ///< around an arc
 constexpr int rim_segments = 32;     ///< in a quarter of a punch's rim, which they cut by 3e-4 of its radius
 
 /// Puts facets together whose vertices are at the same places.
@@ -79,11 +82,17 @@ class Facets {
 struct Wanted {
   AlignedBox3d near; ///< mm, where they are wanted, seen from the tool's place
   double depth;      ///< mm, that a facet may be below the surface
+  std::string name;  ///< of the tool
 
   /// How many facets an arc (mm) of a surface of this radius has. In its middle a square facet is h²/(4 R)
-  /// below it.
+  /// below it.  @throws SolveError for too many
   int facets_of(double arc, double radius) const {
-    return static_cast<int>(std::ceil(arc / std::sqrt(4 * radius * depth)));
+    const double n = std::ceil(arc / std::sqrt(4 * radius * depth));
+    if (!(n <= most_facets))
+      throw cases::SolveError(fmt::format(
+          "the tool '{}' is pressed in so little, {:g} mm, that an arc of it would need more than {} facets",
+          name, depth / facet_depth, most_facets));
+    return static_cast<int>(n);
   }
 };
 
@@ -164,7 +173,7 @@ double indentation(const cases::Scene& scene, const cases::Tool& tool, double si
   for (const cases::FaceNodes& face : cases::touched_faces(scene, tool))
     for (const int node : face)
       deepest = std::max(deepest, -distance(scene.mesh.nodes[cases::index(node)] - tool.place(1)).value);
-  if (deepest > 0) return deepest;
+  if (deepest > 1e-9 * size_of_body) return deepest; // a tool that only touches is in it by rounding
   return tool.moves() ? tool.displacement.norm() : 0.01 * size_of_body;
 }
 
@@ -182,7 +191,8 @@ ToolMesh mesh_of_tool(const cases::Scene& scene, const cases::Tool& tool) {
   const Vector3d grown = Vector3d::Constant(scene.loads.empty() ? tool.displacement.norm() + deep
                                                                 : tool.displacement.norm() + size);
   const Wanted wanted{{body.min() - grown - tool.place(1), body.max() + grown - tool.place(1)},
-                      facet_depth * deep};
+                      facet_depth * deep,
+                      tool.name};
   ToolMesh mesh = std::visit([&](const auto& shape) { return facets_of(shape, wanted); }, tool.shape);
   for (Vector3d& node : mesh.nodes) node += tool.place(0);
   return mesh;

@@ -136,6 +136,19 @@ TEST_CASE("all vertices of a tool's facets lie on it, and their middles near eno
   }
 }
 
+TEST_CASE("a tool that only touches has facets, and one that is barely pressed in is refused") {
+  const auto facets = [](double way) {
+    cases::Scene scene = cases::make_scene(case_text::read_text(pressed(sphere, "small_strain")));
+    cases::Tool tool = scene.definition.tools.front();
+    tool.displacement = {0, 0, -1};
+    const auto& ball = std::get<cases::tools::Sphere>(tool.shape);
+    tool.at[2] = cases::bounding_box(scene.mesh.nodes).max()[2] + ball.radius + 1 - way;
+    return mesh_of_tool(scene, tool);
+  };
+  CHECK_FALSE(facets(1e-16).cells.empty());
+  CHECK_THROWS_WITH(facets(1e-6), Catch::Contains("is pressed in so little, 1e-06 mm"));
+}
+
 TEST_CASE("what CalculiX's contact is not for is refused by name") {
   const auto reason = [](const std::string& text) {
     return reason_without_calculix(case_text::read_text(text));
