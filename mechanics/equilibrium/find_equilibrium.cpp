@@ -238,6 +238,10 @@ EquilibriumSettings in_small_turns(double degrees, int at_least, EquilibriumSett
     *step = std::min(*step, 1 / n_steps);
   // Some halvings must be left.
   settings.smallest_load_step = std::min(settings.smallest_load_step, settings.largest_load_step / 16);
+  // The limits are for paths that may be one step: as many steps as are asked for must not meet them.
+  const int n_asked = std::max(0, static_cast<int>(std::ceil(at_least * way - 1e-9)) - 1);
+  settings.max_load_steps += n_asked;
+  settings.max_newton_iterations += n_asked * settings.easy_newton_per_step;
   return settings;
 }
 

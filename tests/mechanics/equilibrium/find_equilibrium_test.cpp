@@ -174,6 +174,16 @@ TEST_CASE("load steps turn a support by 30 degrees at most, and leave room for h
   CHECK(steps_of(300, 0.5, 0.6).largest_load_step == 1); // 30 degrees of the way
 }
 
+TEST_CASE("as many load steps as are asked for do not meet the limits of a path") {
+  Bar bar = stiffening();
+  EquilibriumSettings settings;
+  settings.max_load_steps = 400;
+  settings.max_newton_iterations = 300; // as finite elements have
+  const auto found = solve(bar, mechanics::in_small_turns(0, 1000, settings));
+  CHECK(found.load_reached == 1);
+  CHECK(found.load_steps >= 1000);
+}
+
 TEST_CASE("load steps that are smaller already stay as they are") {
   mechanics::EquilibriumSettings settings;
   settings.first_load_step = 0.01;
