@@ -176,8 +176,11 @@ class Model {
     for (std::size_t c = 0; c < choices.size(); ++c) {
       try {
         std::vector<Question> of_choice;
-        for (const FitState& state : data_.states)
+        for (const FitState& state : data_.states) {
           of_choice.push_back({scene_of(all_, state, values_of(parameters_, choices[c])), Request{side_}});
+          // The data are compared with the case's own mesh: finer ones would tell the fit nothing.
+          of_choice.back().scene.definition.fem.has_auto_accuracy = false;
+        }
         for (Question& question : of_choice) {
           questions.push_back(std::move(question));
           of_question.push_back(c);

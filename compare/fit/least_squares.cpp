@@ -330,7 +330,10 @@ LeastSquares LeastSquaresProblem::fit(const VectorXd& start, const std::vector<b
   found.parameters = unscaled(coordinates);
   const Prediction last = predict(found.parameters);
   if (!search.is_usable || !last.failure.empty()) {
-    found.failure = "the least squares failed: " + (last.failure.empty() ? search.message : last.failure);
+    std::string reason = last.failure;
+    for (const auto& [values, prediction] : known_) // Ceres says no more than that one has no answer
+      if (reason.empty()) reason = prediction.failure;
+    found.failure = "the least squares failed: " + (reason.empty() ? search.message : reason);
     return found;
   }
   found.predicted = last.values;

@@ -144,7 +144,7 @@ class RowReader {
   std::size_t state_of(const KnownCase& of, const cases::TextRow& row) {
     FitState state{of.file, {}, of.is_held_out};
     for (std::size_t c = 0; c < columns_.size(); ++c)
-      if (columns_[c].role == Role::setting)
+      if (columns_[c].role == Role::setting && !row.fields[c].empty())
         state.settings.push_back(fmt::format("{}={}", columns_[c].name, row.fields[c]));
     const auto is_it = [&](const FitState& s) {
       return s.file == state.file && s.settings == state.settings;
@@ -160,7 +160,7 @@ class RowReader {
     Eigen::Vector3d point;
     int n = 0;
     for (std::size_t c = 0; c < columns_.size(); ++c)
-      if (columns_[c].role == Role::coordinate) {
+      if (columns_[c].role == Role::coordinate && !row.fields[c].empty()) {
         point[columns_[c].axis] = number(row, c);
         ++n;
       }
@@ -202,7 +202,8 @@ class RowReader {
           fmt::format("{}case {} has no measure \"{}\"", row.place(), of.name, column.name));
     }
     if (!point)
-      throw cases::InputError(row.name + ": markers need the columns x, y and z, their places at rest");
+      throw cases::InputError(row.place() + column.name +
+                              ": markers need the columns x, y and z, their places at rest");
     cases::Region at{"", *point, where};
     at.is_in_cell = true;
     return {fmt::format("{} at ({:g}, {:g}, {:g})", column.name, (*point)[0], (*point)[1], (*point)[2]),

@@ -94,6 +94,20 @@ TEST_CASE("drops of a block do not tell Poisson's ratio beside Young's modulus")
   CHECK_THAT(text.str(), Catch::Contains("undetermined") && Catch::Contains("No value is given"));
 }
 
+TEST_CASE("a fit solves the case's own mesh alone, whatever accuracy the case asks for") {
+  const TemporaryFolder folder;
+  const FitCases cases{{folder.write("block.toml", block)}, {}, {}};
+  CHECK(cases::read_case(cases.files[0]).fem.has_auto_accuracy);
+  const auto checked = [](const std::vector<Question>& questions) {
+    for (const Question& question : questions) CHECK_FALSE(question.scene.definition.fem.has_auto_accuracy);
+    return answer(questions);
+  };
+  const std::string rows = "drop,sigma\n0.32,0.01\n";
+  const Fit fit = fit_cases(cases, read_fit_data(rows, "data.csv", cases), "data.csv",
+                            {"material.youngs_modulus"}, cases::Side::fem, checked);
+  CHECK(fit.found.has_values());
+}
+
 TEST_CASE("data of a case that is held out are predicted, not fitted") {
   const TemporaryFolder folder;
   const std::string other = case_text::replaced(block, "\"block\"", "\"other\"");

@@ -139,6 +139,17 @@ TEST_CASE("a model without an answer at the start has its reason") {
   CHECK(problem.fit(problem.start(), all_of(measured)).failure == "the bar breaks");
 }
 
+TEST_CASE("a model without an answer beside the start has its reason") {
+  const Predict only_at_start = [](const std::vector<VectorXd>& choices) {
+    std::vector<Prediction> all;
+    for (const VectorXd& choice : choices)
+      all.push_back(choice[0] == 1 ? Prediction{VectorXd::Ones(6)} : Prediction{{}, "the bar breaks"});
+    return all;
+  };
+  const LeastSquaresProblem problem({{"a", 1}}, {measured, VectorXd::Ones(6), false}, only_at_start);
+  CHECK(problem.fit(problem.start(), all_of(measured)).failure == "the least squares failed: the bar breaks");
+}
+
 TEST_CASE("leaving out one datum after the other errs by what the others' means leave", "[verification]") {
   const VectorXd values = measured.head(5);
   const Predict constant = of_each([](const VectorXd& p) -> VectorXd { return VectorXd::Constant(5, p[0]); });

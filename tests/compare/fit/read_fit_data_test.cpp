@@ -38,6 +38,20 @@ TEST_CASE("rows of data are read into the states that are solved for them") {
   CHECK(data.data[2].deviation == 0.2);
 }
 
+TEST_CASE("a row without a marker's place or a key's value is of measures, under the case's own value") {
+  const TemporaryFolder folder;
+  const FitCases one{{folder.write("bar.toml", body)}, {}, {}};
+  const FitData data =
+      read_fit_data("x,y,z,uz,end,load[0].value[2]\n5,5,5,0.1,,0.02\n,,,,0.2,\n", "data.csv", one);
+  REQUIRE(data.data.size() == 2);
+  REQUIRE(data.states.size() == 2);
+  CHECK(data.states[0].settings == std::vector<std::string>{"load[0].value[2]=0.02"});
+  CHECK(data.states[0].markers.size() == 1);
+  CHECK(data.states[1].settings.empty());
+  CHECK(data.states[1].markers.empty());
+  CHECK(data.data[1].measure.name == "end");
+}
+
 TEST_CASE("a mistake in data is refused with its line") {
   const TemporaryFolder folder;
   const FitCases one{{folder.write("bar.toml", body)}, {}, {}};
@@ -57,7 +71,8 @@ TEST_CASE("a mistake in data is refused with its line") {
   refused(one, "end,sigma\n1,0\n", "data.csv:2: 0 is no standard deviation");
   refused(one, "end,sigma\n,1\n", "data.csv:2: has no datum");
   refused(one, "all\n1\n", "data.csv:2: all: is the norm of a field, which --to limit fits");
-  refused(one, "x,y,ux\n1,2,3\n", "data.csv: markers need the columns x, y and z");
+  refused(one, "x,y,ux\n1,2,3\n", "data.csv:2: ux: markers need the columns x, y and z");
+  refused(one, "x,y,z,ux\n1,,2,3\n", "data.csv:2: ux: markers need the columns x, y and z");
   refused(two, "end\n1\n", "no column \"case\"");
   refused(two, "case,end\nthird,1\n", "data.csv:2: case is \"third\", must be \"bar\" | \"second\"");
   refused({{one.files[0], one.files[0]}, {}, {}}, "case,end\nbar,1\n", "is named \"bar\" as");
