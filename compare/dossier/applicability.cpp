@@ -3,6 +3,7 @@
 #include "compare/dossier/gate_list.hpp"
 #include "compare/error_bars/auto_fem.hpp"
 #include "compare/write/write.hpp"
+#include "mechanics/larger.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,11 +49,19 @@ ValueExtent poissons_ratios_of(const cases::Case& definition) {
   return extent;
 }
 
+/// The largest displacement gradient of an answer; of a motion that of all the times when its body is kept.
+double largest_gradient_of(const cases::Scene& scene, const cases::Solution& solution) {
+  double largest = largest_gradient(scene.mesh, solution.displacement);
+  if (solution.trajectory)
+    for (const auto& body : solution.trajectory->bodies)
+      largest = mechanics::larger(largest, largest_gradient(scene.mesh, body.displacement));
+  return largest;
+}
+
 Json side_to_json(const cases::Scene& scene, const Answer& answer, const ValueExtent& strains) {
   const cases::Solution& solution = answer.solution;
   return {{"strain", strains.to_json()},
-          {"largest_gradient",
-           answer.converged() ? Json(largest_gradient(scene.mesh, solution.displacement)) : Json()},
+          {"largest_gradient", answer.converged() ? Json(largest_gradient_of(scene, solution)) : Json()},
           {"inverted_cells", solution.inverted_cells}};
 }
 
@@ -84,7 +93,7 @@ Json applicability_to_json(const StudiedCase& studied, const Dossier& dossier, M
       verified.add(*of_case.highest());
     }
     if (own.answers.fem.converged())
-      verified_strains.add(largest_gradient(own.scene.mesh, own.answers.fem.solution.displacement));
+      verified_strains.add(largest_gradient_of(own.scene, own.answers.fem.solution));
   }
   std::vector<std::string> outside;
   if (!ratios.is_empty() && !(verified.holds(*ratios.lowest()) && verified.holds(*ratios.highest())))

@@ -177,7 +177,12 @@ Dossier make_dossier(const DossierRequest& request, const AnswerQuestions& answe
   std::vector<Question> questions = questions_of(request, states);
   std::vector<UncertainKey> keys;
   for (const std::string& text : request.uncertain) {
-    keys.push_back(read_key(text));
+    UncertainKey key = read_key(text);
+    for (const UncertainKey& other : keys)
+      if (other.key == key.key)
+        throw cases::InputError(
+            fmt::format("--uncertain: {}: is there twice, must be named once with one deviation", key.key));
+    keys.push_back(std::move(key));
     for (const FitState& state : states.all) check_both_ends(request.cases, state, keys.back());
   }
   dossier.code = verify_code(request.own_files, answer_own);

@@ -189,6 +189,24 @@ TEST_CASE("the context of a dossier holds tools, and what materials add to their
   CHECK(context["tools"][1]["displacement_mm"].is_null());
 }
 
+TEST_CASE("a dossier's displacement gradient is the largest of a motion's, which ends as it began") {
+  const TemporaryFolder folder;
+  StudiedCase studied;
+  studied.comparison =
+      comparison_of(cases::make_scene(cases::read_case(folder.write("block.toml", block))), {});
+  cases::Solution& solution = studied.comparison.answers.fem.solution;
+  const auto& nodes = studied.comparison.scene.mesh.nodes;
+  solution.status = cases::Status::converged;
+  solution.displacement.assign(nodes.size(), Eigen::Vector3d::Zero());
+  std::vector<Eigen::Vector3d> stretched;
+  for (std::size_t n = 0; n < nodes.size(); ++n) stretched.emplace_back(0, 0, 0.4 * nodes[n][2]);
+  solution.trajectory = cases::Trajectory{};
+  solution.trajectory->bodies = {{0, solution.displacement}, {1, stretched}, {2, solution.displacement}};
+  MissingList missing;
+  const Json json = applicability_to_json(studied, {}, missing);
+  CHECK(json["fem"]["largest_gradient"].get<double>() == Approx(0.4));
+}
+
 TEST_CASE("a dossier refuses keys and data without a meaning before anything is solved") {
   const TemporaryFolder folder;
   DossierRequest request;
@@ -202,6 +220,8 @@ TEST_CASE("a dossier refuses keys and data without a meaning before anything is 
   refused("standard uncertainty > 0");
   request.uncertain = {"material.density=0.1"};
   refused("--uncertain: material.density: ");
+  request.uncertain = {"material.youngs_modulus=0.01", "material.youngs_modulus=0.01"};
+  refused("--uncertain: material.youngs_modulus: is there twice");
   request.uncertain = {};
   request.measured = folder.write("data.csv", "middle\n1\n");
   refused("data.csv:1: \"middle\" is no column");
