@@ -94,7 +94,7 @@ class Simulation {
   SimulationSummary summary() const;
   bool has_recording() const { return !recording_.empty(); }
   bool is_recording_full() const {
-    return std::max(recording_.size(), tool_recording_.size()) >= most_recorded;
+    return recording_.size() >= most_recorded || tool_recording_.size() + 2 > most_recorded;
   }
   /// Writes what read_recording() reads.
   void write_recording(std::ostream& out) const;
