@@ -208,13 +208,11 @@ void read_keys(Table& table, loads::Gravity& gravity) {
 
 Load read_load(Table& table, const Case& definition) {
   Load load;
-  const bool is_gravity =
-      table.has("kind") && table.entry("kind").value<std::string>() == loads::Gravity::name;
-  if (is_gravity)
+  load.kind = table.required("kind", read_kind<loads::Kind>);
+  if (load.on() == loads::On::masses)
     load.region.where = table.entry("kind").where; // messages point there
   else
     load.region = read_region(table, definition.body);
-  load.kind = table.required("kind", read_kind<loads::Kind>);
   load.history = read_history(table, definition.dynamics.has_value());
   std::visit([&](auto& kind) { read_keys(table, kind); }, load.kind);
   if (load.on() == loads::On::area) check_has_area(load, definition.body);

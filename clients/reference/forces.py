@@ -77,6 +77,9 @@ class Body:
         if len(mid):
             upper = np.arange(8)[None, :] >> mid[:, 8].astype(int)[:, None] & 1
             self.groups.append((mid[:, :8].astype(int), np.where(upper, 0.25, -0.25), mid[:, 9:].T))
+        for _, _, laws in self.groups:
+            if not np.isin(laws[2], (0, 1)).all():
+                raise ValueError(f"springs of a law of number {laws[2].max():g}, known are 0 (Hooke's) and 1 (power-log)")
         hexahedra = arrays["volume_hexahedra"]
         self.hexahedra = hexahedra[:, :8].astype(int), hexahedra[:, 8:].T
         self.read_patches(arrays["volume_patch_tetrahedra"].astype(int), arrays["volume_patches"].T)
