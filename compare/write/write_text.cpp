@@ -341,7 +341,7 @@ std::vector<std::string> tools_thinner_than_cells(const cases::Scene& scene) {
     if (const double side = cases::shortest_side(scene, tool); *radius < side)
       all.push_back(
           fmt::format("the tool '{}' has a radius of {:g} mm, less than every side of the faces that "
-                      "it may touch, {:g} mm: nodes go round it, and its force is wrong; refine the "
+                      "it may touch, {:g} mm: nodes can go round it, and its force be wrong; refine the "
                       "mesh",
                       tool.name, *radius, side));
   }
