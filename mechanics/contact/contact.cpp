@@ -252,11 +252,13 @@ bool Contact::is_way_open(const DisplacementAt& from, double load_from, const Di
                    allowed = std::min({0., at_begin, at_end}) - passage;
       // no place between is nearer to the tool than this
       if ((at_begin + at_end - way) / 2 >= allowed) continue;
-      // A distance changes by at most the way: no place is left out that is deeper by a quarter.
+      // A distance changes by at most the way: no place is left out that is deeper by a quarter of the
+      // passage. Vertices of quadratic faces have no area, and so no passage.
+      const double least = std::max(passage / 4, way / 1000);
       for (double gone = at_begin - allowed; gone < way;) {
         const double above = distance(gone / way) - allowed;
         if (above < 0) return false;
-        gone += std::max(above, passage / 4);
+        gone += std::max(above, least);
       }
     }
   }

@@ -240,4 +240,9 @@ TEST_CASE("a way is open outside a tool and into its surface, not through an edg
   CHECK_FALSE(is_open(ball, {0.1, 0, -3.3}, {0.1, 0, 29.1}));
   CHECK_FALSE(is_open(ball, {0.1, 0, -29.1}, {0.1, 0, 3.3}));
   CHECK(is_open(ball, {0.51, 0, -3.3}, {0.51, 0, 29.1})); // past it
+  // A point without an area, which is deepest where its way begins.
+  const mechanics::SurfacePoint vertex{0, {0, 0, -0.49}, 0, 1, Vector3d::UnitZ()};
+  const Contact contact({{quarter_block::pressed_down(ball, Vector3d::Zero(), 0), {vertex}}});
+  CHECK(contact.is_way_open([](int) { return Vector3d(0, 0, 0); }, 0,
+                            [](int) { return Vector3d(0.3, 0, -0.01); }, 1));
 }
