@@ -82,7 +82,7 @@ class Facets {
 struct Wanted {
   AlignedBox3d near; ///< mm, where they are wanted, seen from the tool's place
   double depth;      ///< mm, that a facet may be below the surface
-  std::string name;  ///< of the tool
+  std::string name;  ///< the tool's, for messages
 
   /// How many facets an arc (mm) of a surface of this radius has. In its middle a square facet is h²/(4 R)
   /// below it.  @throws SolveError for too many
