@@ -21,7 +21,8 @@ struct ToolMesh {
 /// equilibrium's surface may be from the tool, a thousandth of the indentation. A punch has its flat end
 /// alone.
 /// @param scene  as its finite elements have it: already refined
-/// @return no cells, if no facet can
+/// @return no cells, if no facet can    @throws SolveError where the indentation is so small that there would
+/// be too many
 ToolMesh mesh_of_tool(const cases::Scene& scene, const cases::Tool& tool);
 
 } // namespace springproof::compare

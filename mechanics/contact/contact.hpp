@@ -140,8 +140,8 @@ class Contact {
   Grip renewed(const Touch& touch, Held held) const;
 };
 
-/// Young's modulus at rest of a scene's stiffest material, MPa, times 10; times 100 in a motion, where
-/// nothing corrects the penalty.
+/// Young's modulus at zero strain of a scene's stiffest material, MPa, times 10; times 100 in a motion, where
+/// nothing corrects the penalty, and of the modulus before any memory has faded.
 double contact_modulus(const cases::Scene& scene);
 
 /// The tools of a scene with the vertices of the faces that they may touch.

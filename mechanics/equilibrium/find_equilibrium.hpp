@@ -79,7 +79,8 @@ Equilibrium prescribed_state(const NonlinearProblem& problem, const Vector& star
 /// Returns a converged solution, without displacements and what follows from them.
 cases::Solution to_solution(const Equilibrium& equilibrium);
 
-/// Settings with load steps in which no support turns by more than cases::largest_turn_of_step.
+/// Settings with load steps in which no support turns by more than cases::largest_turn_of_step. Limits of the
+/// path grow with `at_least`.
 /// @param degrees   largest turn of a support at load factor 1
 /// @param settings  their load factors from and to must be set
 /// @param at_least  least number of load steps from load factor 0 to 1
